@@ -1,0 +1,61 @@
+"""What every negotiating automation shares: weights, horizon, period, and how force is read."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from cowalk.sim.errors import InputError
+
+
+@dataclass(frozen=True)
+class NegotiationSettings:
+    """Settings of the negotiation of Schneider et al. (arXiv 2407.17275).
+
+    The paper prints only ``l = 5`` and v = 0.8 m/s; every default here is inferred, by
+    ``cowalk paper --calibrate`` where the paper's scenario determines it.
+
+    Parameters
+    ----------
+    dimensions : {"omega", "both"}
+        Whether omega alone is negotiated at the usual pace, as in the paper, or v as well.
+    period : float
+        Time between negotiations in s, a whole multiple of the control period.
+    horizon : float
+        Time tau in s over which a motion primitive is held in prediction.
+    distance_weight, speed_weight, turn_weight : float
+        w1 (1/m^2), w2 (s^2/m^2), w3 (s^2/rad^2) of J = w1 d^2 + w2 v^2 + w3 omega^2.
+    force_max : (float, float)
+        Force in N, forward and sideways, that is read as full insistence.
+    force_threshold : (float, float)
+        Force in N below which no wish is read.
+    sensitivity : (float, float)
+        f_v and f_omega: share of the upper bound that a full force asks for.
+    """
+
+    dimensions: Literal["omega", "both"] = "omega"
+    period: float = 0.7
+    horizon: float = 2.32
+    distance_weight: float = 1.0
+    speed_weight: float = 0.0
+    turn_weight: float = 0.069
+    force_max: tuple[float, float] = (7.5, 7.5)
+    force_threshold: tuple[float, float] = (0.0, 0.0)
+    sensitivity: tuple[float, float] = (0.5, 0.5)
+
+    def steps(self, control_period: float) -> int:
+        """Return the number of control steps between negotiations.
+
+        Raises
+        ------
+        InputError
+            If the period is not a whole multiple of the control period.
+        """
+        ratio = self.period / control_period
+        if ratio < 0.5 or abs(ratio - round(ratio)) > 1e-6:
+            raise InputError(
+                f"automation.negotiation.period = {self.period} s is not a whole multiple of the "
+                f"control period {control_period:g} s; "
+                f"{max(1, round(ratio)) * control_period:g} would be"
+            )
+        return round(ratio)

@@ -1,0 +1,1 @@
+"""Signals in, beliefs out: intent, stubbornness, smoothing and their scores; all pure."""

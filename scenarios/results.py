@@ -1,0 +1,209 @@
+"""The trace of a run, and the run folder that keeps it."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from cowalk.sim.errors import InputError
+from cowalk.sim.motion import Array
+
+if TYPE_CHECKING:
+    from .expectations import Verdict
+    from .schema import Scenario
+
+UNITS = {
+    "t": "s",
+    "x": "m",
+    "y": "m",
+    "theta": "rad",
+    "v": "m/s",
+    "omega": "rad/s",
+    "v_cmd": "m/s",
+    "omega_cmd": "rad/s",
+    "fx": "N",
+    "fy": "N",
+    "fx_intent": "N",
+    "fy_intent": "N",
+    "human_x": "m",
+    "human_y": "m",
+    "human_theta": "rad",
+    "true_stubbornness_v": "1",
+    "true_stubbornness_omega": "1",
+    "true_v": "m/s",
+    "true_omega": "rad/s",
+    "est_stubbornness_v": "1",
+    "est_stubbornness_omega": "1",
+    "smoothed_stubbornness_v": "1",
+    "smoothed_stubbornness_omega": "1",
+    "est_v": "m/s",
+    "est_omega": "rad/s",
+    "wish_v": "m/s",
+    "wish_omega": "rad/s",
+    "interaction": "1",
+    "interaction_smoothed": "1",
+    "utility_loss": "1",
+    "target_utility": "1",
+    "negotiation": "1",
+    "clearance": "m",
+}
+"""Every trace column and its unit, in the order of the file.
+
+Row k describes control step k: the state at its end, the decisions in force during it, and
+the measured force averaged over it.
+"""
+
+
+class Trace:
+    """One row a control step, one column a quantity of `UNITS`.
+
+    Parameters
+    ----------
+    capacity : int
+        Number of rows to make room for.
+    """
+
+    def __init__(self, capacity: int) -> None:
+        self._rows = np.empty((capacity, len(UNITS)))
+        self._count = 0
+
+    def append(self, row: tuple[float, ...]) -> None:
+        """Add a row, values in the order of `UNITS`."""
+        self._rows[self._count] = row
+        self._count += 1
+
+    def __len__(self) -> int:
+        return self._count
+
+    def __getitem__(self, column: str) -> Array:
+        """Return a column, shape (rows,)."""
+        return self._rows[: self._count, list(UNITS).index(column)]
+
+    def columns(self) -> dict[str, Array]:
+        """Return every column by name, each of shape (rows,)."""
+        return {name: self._rows[: self._count, i] for i, name in enumerate(UNITS)}
+
+    @property
+    def values(self) -> Array:
+        """All rows, shape (rows, columns)."""
+        return self._rows[: self._count]
+
+    def write(self, file: Path) -> None:
+        """Write a Parquet file whose fields carry their unit as metadata ``unit``."""
+        import pyarrow as pa
+        import pyarrow.parquet as pq
+
+        schema = pa.schema(
+            [
+                pa.field(
+                    name,
+                    pa.int64() if name == "negotiation" else pa.float64(),
+                    metadata={"unit": unit},
+                )
+                for name, unit in UNITS.items()
+            ]
+        )
+        arrays = [
+            pa.array(column.astype(np.int64) if name == "negotiation" else column)
+            for name, column in self.columns().items()
+        ]
+        pq.write_table(pa.Table.from_arrays(arrays, schema=schema), file)
+
+    @classmethod
+    def read(cls, file: Path) -> Trace:
+        """Read what `write` wrote."""
+        import pyarrow.parquet as pq
+
+        table = pq.read_table(file)
+        trace = cls(table.num_rows)
+        for i, name in enumerate(UNITS):
+            trace._rows[:, i] = table.column(name).to_numpy()
+        trace._count = table.num_rows
+        return trace
+
+
+def json_ready(value: Any) -> Any:
+    """Return a value that JSON can hold: not-finite numbers become None."""
+    if isinstance(value, dict):
+        return {key: json_ready(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [json_ready(item) for item in value]
+    if isinstance(value, float | np.floating):
+        return float(value) if math.isfinite(value) else None
+    if isinstance(value, np.integer):
+        return int(value)
+    return value
+
+
+@dataclass
+class RunResult:
+    """What a run leaves behind.
+
+    Attributes
+    ----------
+    scenario : Scenario
+        Fully resolved.
+    trace : Trace
+    summary : dict
+        Metrics, versions, seed, wall time and real-time factor; JSON-ready.
+    verdicts : list of Verdict
+        One for each expectation of the scenario.
+    error : str or None
+        Why the run ended before its time, if it did.
+    """
+
+    scenario: Scenario
+    trace: Trace
+    summary: dict[str, Any]
+    verdicts: list[Verdict] = field(default_factory=list)
+    error: str | None = None
+
+    @property
+    def passed(self) -> bool:
+        """Whether the run went through and every expectation held."""
+        return self.error is None and all(verdict.passed for verdict in self.verdicts)
+
+    def write(self, folder: str | Path) -> Path:
+        """Write trace.parquet, summary.json, scenario.yaml and figure.png into a folder.
+
+        Raises
+        ------
+        InputError
+            If the folder cannot be written.
+        """
+        from .figures import draw_run
+        from .loading import to_yaml
+
+        folder = writable_folder(folder)
+        self.trace.write(folder / "trace.parquet")
+        (folder / "summary.json").write_text(json.dumps(self.summary, indent=2) + "\n")
+        (folder / "scenario.yaml").write_text(to_yaml(self.scenario))
+        if len(self.trace) > 1:
+            draw_run(self, folder / "figure.png")
+        return folder
+
+
+def writable_folder(folder: str | Path) -> Path:
+    """Create a folder and return it.
+
+    Raises
+    ------
+    InputError
+        If it cannot be created or written to.
+    """
+    path = Path(folder)
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+        probe = path / ".write-test"
+        probe.touch()
+        probe.unlink()
+    except OSError as error:
+        raise InputError(
+            f"--out {folder}: cannot write there ({error.strerror}); give a writable folder"
+        ) from error
+    return path

@@ -1,0 +1,66 @@
+"""What a scenario file may hold: one model a section, validated once, at the door."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+
+from cowalk.agents.automations.settings import NegotiationSettings
+from cowalk.agents.humans.intention import IntentionSettings
+from cowalk.sim.motion import TwistBounds
+from cowalk.sim.plant import Rates
+from cowalk.sim.sensor import SensorParameters
+from cowalk.sim.world import World
+
+SUFFIX = ".scenario.yaml"
+"""How the name of a scenario file ends."""
+
+
+def _name_alone(value: Any) -> Any:
+    return {"name": value} if isinstance(value, str) else value
+
+
+class Component(BaseModel):
+    """A replaceable part: its registered name or ``module:Class``, and its parameters."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    name: str
+    parameters: dict[str, Any] = Field(default_factory=dict)
+
+
+Named = Annotated[Component, BeforeValidator(_name_alone)]
+
+
+class HumanComponent(Component):
+    """The human seat. What they want (``intention``) stays when the model is swapped."""
+
+    intention: IntentionSettings = Field(default_factory=IntentionSettings)
+
+
+class AutomationComponent(Component):
+    """The automation seat. ``negotiation`` and ``smoother`` stay when the strategy is swapped."""
+
+    negotiation: NegotiationSettings = Field(default_factory=NegotiationSettings)
+    smoother: Named = Component(name="moving-average")
+
+
+class Scenario(BaseModel):
+    """A whole scenario. Lengths in m, times in s, angles in rad, forces in N."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    name: str
+    description: str = ""
+    seed: Annotated[int, Field(ge=0)] = 0
+    duration: Annotated[float, Field(gt=0.0, allow_inf_nan=False)] = 30.0
+    pace: Annotated[float, Field(gt=0.0, allow_inf_nan=False)] = 0.8
+    plant: Named = Component(name="bullet")
+    rates: Rates = Rates()
+    world: World
+    sensor: SensorParameters = SensorParameters()
+    bounds: TwistBounds = TwistBounds()
+    human: Annotated[HumanComponent, BeforeValidator(_name_alone)]
+    automation: Annotated[AutomationComponent, BeforeValidator(_name_alone)]
+    expect: dict[str, str] = Field(default_factory=dict)

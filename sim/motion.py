@@ -1,0 +1,241 @@
+"""Planar motion primitives and paths: pure functions over arrays with leading batch axes.
+
+A *twist* is a planar body twist ``[v, omega]`` in m/s and rad/s; held for a time it traces
+a circular arc. A *pose* is ``[x, y, theta]`` in m, m, rad, world axes, counter-clockwise.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+
+
+def sinc(angle: ArrayLike) -> Array:
+    """Return sin(a)/a, equal to 1 at a = 0 and smooth through it.
+
+    Parameters
+    ----------
+    angle : array_like, shape (...)
+        Angle in rad.
+
+    Returns
+    -------
+    ndarray, shape (...)
+    """
+    return np.sinc(np.asarray(angle, dtype=float) / np.pi)
+
+
+def wrap_angle(angle: ArrayLike) -> Array:
+    """Return the angle brought into [-pi, pi), in rad, shape (...)."""
+    return (np.asarray(angle, dtype=float) + np.pi) % (2.0 * np.pi) - np.pi
+
+
+def arc_displacement(twist: ArrayLike, duration: ArrayLike) -> Array:
+    """Return the displacement along the arc of a constant twist, in the starting base frame.
+
+    dx = vT sinc(wT), dy = vT (wT/2) sinc(wT/2)^2, dtheta = wT, exact for every w.
+
+    Parameters
+    ----------
+    twist : array_like, shape (..., 2)
+        ``[v, omega]`` in m/s and rad/s.
+    duration : array_like, shape (...)
+        Time T in s.
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+        ``[dx, dy, dtheta]`` in m, m, rad.
+    """
+    twist = np.asarray(twist, dtype=float)
+    length = twist[..., 0] * duration
+    turn = twist[..., 1] * duration
+    return np.stack(
+        np.broadcast_arrays(
+            length * sinc(turn), length * (turn / 2.0) * sinc(turn / 2.0) ** 2, turn
+        ),
+        axis=-1,
+    )
+
+
+def compose(pose_world: ArrayLike, displacement_base: ArrayLike) -> Array:
+    """Return the world pose reached by a displacement given in the base frame of a pose.
+
+    Parameters
+    ----------
+    pose_world : array_like, shape (..., 3)
+        ``[x, y, theta]`` in m, m, rad.
+    displacement_base : array_like, shape (..., 3)
+        ``[dx, dy, dtheta]`` in the axes of ``pose_world``.
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+        World pose; theta is not wrapped, so that it stays continuous over a run.
+    """
+    pose = np.asarray(pose_world, dtype=float)
+    step = np.asarray(displacement_base, dtype=float)
+    cos, sin = np.cos(pose[..., 2]), np.sin(pose[..., 2])
+    return np.stack(
+        np.broadcast_arrays(
+            pose[..., 0] + cos * step[..., 0] - sin * step[..., 1],
+            pose[..., 1] + sin * step[..., 0] + cos * step[..., 1],
+            pose[..., 2] + step[..., 2],
+        ),
+        axis=-1,
+    )
+
+
+def world_to_base(pose_world: ArrayLike, points_world: ArrayLike) -> Array:
+    """Return world points in the base frame of a pose.
+
+    Parameters
+    ----------
+    pose_world : array_like, shape (..., 3)
+    points_world : array_like, shape (..., 2)
+        Points in m; leading axes broadcast against those of the pose.
+
+    Returns
+    -------
+    ndarray, shape (..., 2)
+    """
+    pose = np.asarray(pose_world, dtype=float)
+    offset = np.asarray(points_world, dtype=float) - pose[..., :2]
+    cos, sin = np.cos(pose[..., 2]), np.sin(pose[..., 2])
+    return np.stack(
+        (
+            cos * offset[..., 0] + sin * offset[..., 1],
+            cos * offset[..., 1] - sin * offset[..., 0],
+        ),
+        axis=-1,
+    )
+
+
+@dataclass(frozen=True)
+class TwistBounds:
+    """Bounds on the twist: ``lower`` and ``upper`` are ``[v, omega]`` in m/s and rad/s.
+
+    Raises
+    ------
+    ValueError
+        If a lower bound is not below its upper bound, or an upper bound is not positive.
+    """
+
+    lower: tuple[float, float] = (0.0, -0.5)
+    upper: tuple[float, float] = (1.2, 0.5)
+
+    def __post_init__(self) -> None:
+        for name, low, high in zip(("v", "omega"), self.lower, self.upper, strict=True):
+            if not low < high or not high > 0.0:
+                raise ValueError(
+                    f"twist bounds of {name} are [{low}, {high}]; "
+                    "the lower must lie below the upper, and the upper above 0"
+                )
+
+
+@dataclass(frozen=True)
+class Path:
+    """A polyline in the world plane, extended straight beyond both of its ends.
+
+    Parameters
+    ----------
+    points : sequence of (x, y)
+        At least two distinct consecutive points in m.
+
+    Raises
+    ------
+    ValueError
+        If there are fewer than two points or two consecutive ones coincide.
+    """
+
+    points: tuple[tuple[float, float], ...]
+    _start: Array = field(init=False, repr=False, compare=False)
+    _direction: Array = field(init=False, repr=False, compare=False)
+    _station: Array = field(init=False, repr=False, compare=False)
+    _low: Array = field(init=False, repr=False, compare=False)
+    _high: Array = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        points = np.asarray(self.points, dtype=float)
+        if points.ndim != 2 or points.shape[-1] != 2 or len(points) < 2:
+            raise ValueError(
+                f"a path needs at least two points (x, y), got shape {points.shape}"
+            )
+        legs = np.diff(points, axis=0)
+        lengths = np.hypot(legs[:, 0], legs[:, 1])
+        if not np.all(lengths > 0.0):
+            raise ValueError("two consecutive points of a path coincide")
+        low = np.zeros(len(legs))
+        low[0] = -np.inf
+        high = lengths.copy()
+        high[-1] = np.inf
+        for name, value in (
+            ("_start", points[:-1]),
+            ("_direction", legs / lengths[:, None]),
+            ("_station", np.concatenate(([0.0], np.cumsum(lengths)))),
+            ("_low", low),
+            ("_high", high),
+        ):
+            object.__setattr__(self, name, value)
+
+    @property
+    def length(self) -> float:
+        """Length from the first to the last point in m."""
+        return float(self._station[-1])
+
+    def relative_pose(self, pose_world: ArrayLike) -> Array:
+        """Return the pose relative to the path: ``[station, offset, heading]``.
+
+        Parameters
+        ----------
+        pose_world : array_like, shape (..., 3)
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Distance along the path of the nearest path point (m), lateral offset (m, left
+            positive) and heading against the path's direction there (rad, in [-pi, pi)).
+        """
+        pose = np.asarray(pose_world, dtype=float)
+        offset = pose[..., None, :2] - self._start
+        direction = self._direction
+        along = offset[..., 0] * direction[:, 0] + offset[..., 1] * direction[:, 1]
+        across = direction[:, 0] * offset[..., 1] - direction[:, 1] * offset[..., 0]
+        if len(direction) == 1:
+            nearest = np.zeros(pose.shape[:-1], dtype=int)
+        else:
+            beyond = along - np.clip(along, self._low, self._high)
+            nearest = np.argmin(beyond**2 + across**2, axis=-1)
+        pick = nearest[..., None]
+        on_leg = np.take_along_axis(along, pick, axis=-1)[..., 0]
+        on_leg = np.clip(on_leg, self._low[nearest], self._high[nearest])
+        heading = np.arctan2(direction[nearest, 1], direction[nearest, 0])
+        return np.stack(
+            (
+                self._station[nearest] + on_leg,
+                np.take_along_axis(across, pick, axis=-1)[..., 0],
+                wrap_angle(pose[..., 2] - heading),
+            ),
+            axis=-1,
+        )
+
+    def point_at(self, station: ArrayLike) -> Array:
+        """Return the path point at a distance along the path.
+
+        Parameters
+        ----------
+        station : array_like, shape (...)
+            Distance from the first point in m; outside [0, length] on the straight extension.
+
+        Returns
+        -------
+        ndarray, shape (..., 2)
+        """
+        station = np.asarray(station, dtype=float)
+        leg = np.searchsorted(self._station[1:-1], station, side="right")
+        along = (station - self._station[leg])[..., None]
+        return np.asarray(self._start[leg] + along * self._direction[leg])

@@ -1,0 +1,125 @@
+"""The protocol of a plant: what moves when the two seats act, and what is measured.
+
+Two plants ship, `cowalk.sim.unicycle` (kinematic, the paper's) and `cowalk.sim.bullet`
+(rigid bodies in PyBullet, the interaction force being a constraint's reaction).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from .errors import InputError
+from .motion import Array
+from .world import World
+
+BASE_RADIUS = 0.28
+"""Radius of the disc that bounds the mobile base, m."""
+HUMAN_RADIUS = 0.22
+"""Radius of the disc that bounds the human's trunk, m (half of a shoulder breadth of 0.44 m)."""
+HUMAN_PLACE = (-0.10, -0.65, 0.0)
+"""Pose at which the human walks beside the base, in base axes: m, m, rad."""
+
+
+def _ratio(fast_name: str, fast: int, slow_name: str, slow: int) -> int:
+    if slow <= 0 or fast < slow or fast % slow:
+        raise InputError(
+            f"rates.{fast_name} = {fast} Hz is not a whole multiple of {slow_name} = {slow} Hz; "
+            f"{max(1, round(fast / slow)) * slow if slow > 0 else 'a positive rate'} would be"
+        )
+    return fast // slow
+
+
+@dataclass(frozen=True)
+class Rates:
+    """Rates of control, physics and force sensor in Hz, integers of one another.
+
+    Raises
+    ------
+    InputError
+        If physics is no multiple of control or of the sensor, or the sensor of control.
+    """
+
+    control: int = 20
+    physics: int = 240
+    sensor: int = 240
+
+    def __post_init__(self) -> None:
+        _ratio("physics", self.physics, "control", self.control)
+        _ratio("sensor", self.sensor, "control", self.control)
+        _ratio("physics", self.physics, "sensor", self.sensor)
+
+    @property
+    def period(self) -> float:
+        """Control period in s."""
+        return 1.0 / self.control
+
+    @property
+    def substeps(self) -> int:
+        """Physics steps in a control step."""
+        return self.physics // self.control
+
+    @property
+    def samples(self) -> int:
+        """Force samples in a control step."""
+        return self.sensor // self.control
+
+
+@dataclass(frozen=True, slots=True)
+class PlantState:
+    """What a plant reports after a control step.
+
+    Attributes
+    ----------
+    pose : (x, y, theta)
+        Base pose at the end of the step, world axes: m, m, rad.
+    twist : (v, omega)
+        Executed twist of the base at the end of the step, base axes: m/s, rad/s.
+    human_pose : (x, y, theta)
+        Pose of the human's trunk, world axes: m, m, rad.
+    force_on_base : ndarray, shape (samples, 2)
+        Force of the human on the base in base axes, N, at every sensor instant of the step,
+        oldest first, before the sensor model. A fresh array each step.
+    """
+
+    pose: tuple[float, float, float]
+    twist: tuple[float, float]
+    human_pose: tuple[float, float, float]
+    force_on_base: Array
+
+
+class Plant(Protocol):
+    """What `cowalk.sim.env` steps. Built with `Rates`; holds no random state of its own."""
+
+    def reset(self, world: World, rng: np.random.Generator) -> PlantState:
+        """Put base and human at the world's start, at rest, and return the state there."""
+        ...
+
+    def step(
+        self, twist_command: tuple[float, float], hand_force: tuple[float, float]
+    ) -> PlantState:
+        """Advance one control period.
+
+        Parameters
+        ----------
+        twist_command : (v, omega)
+            Commanded twist of the base in m/s, rad/s.
+        hand_force : (fx, fy)
+            Force that the human intends to exert on the base, base axes, N.
+
+        Raises
+        ------
+        SimulationError
+            If the state is not finite any more, or a body moves faster than is plausible.
+        """
+        ...
+
+    def render(self, width: int, height: int) -> np.ndarray:
+        """Return a picture of the present state, uint8, shape (height, width, 3)."""
+        ...
+
+    def close(self) -> None:
+        """Free what the plant holds. May be called twice."""
+        ...

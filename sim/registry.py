@@ -1,0 +1,79 @@
+"""Names for interchangeable parts: built in, added by entry points, or ``module:Class``."""
+
+from __future__ import annotations
+
+import difflib
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from importlib import import_module
+from importlib.metadata import entry_points
+from pathlib import Path
+from typing import Any, Generic, TypeVar
+
+from .errors import InputError
+
+T = TypeVar("T")
+
+
+def did_you_mean(name: str, known: list[str]) -> str:
+    """Return what would be right instead of a name: the nearest one and the whole list."""
+    near = difflib.get_close_matches(name, known, n=1)
+    hint = f"did you mean {near[0]!r}? " if near else ""
+    return f"{hint}Known: {', '.join(known)}"
+
+
+class Registry(Generic[T]):
+    """A set of named constructors of one kind of part.
+
+    Parameters
+    ----------
+    kind : str
+        What is registered, in one word; it appears in messages.
+    built_in : mapping of str to str
+        ``module:Class`` for every name that ships; nothing is imported before it is asked for.
+    entry_point_group : str, optional
+        Group of Python entry points that adds names.
+    """
+
+    def __init__(
+        self, kind: str, built_in: Mapping[str, str], entry_point_group: str | None = None
+    ) -> None:
+        self.kind = kind
+        self._built_in = dict(built_in)
+        self._group = entry_point_group
+
+    def _addresses(self) -> dict[str, str]:
+        added = entry_points(group=self._group) if self._group else ()
+        return self._built_in | {point.name: point.value for point in added}
+
+    def names(self) -> list[str]:
+        """Return all registered names, sorted."""
+        return sorted(self._addresses())
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.names())
+
+    def get(self, name: str) -> Callable[..., T]:
+        """Return the constructor behind a name or a ``module:Class``.
+
+        Raises
+        ------
+        InputError
+            If the name is unknown, or the module or the class cannot be imported.
+        """
+        address = name if ":" in name else self._addresses().get(name)
+        if address is None:
+            raise InputError(f"unknown {self.kind} {name!r}; {did_you_mean(name, self.names())}")
+        module_name, _, attribute = address.partition(":")
+        here = str(Path.cwd())
+        if ":" in name and here not in sys.path:
+            sys.path.append(here)  # a user's file beside the scenario, as with `python -m`
+        try:
+            part: Any = import_module(module_name)
+            for step in attribute.split("."):
+                part = getattr(part, step)
+        except (ImportError, AttributeError, SyntaxError, ValueError) as error:
+            raise InputError(f"{self.kind} {name!r} cannot be imported: {error}") from error
+        if not callable(part):
+            raise InputError(f"{self.kind} {name!r} is not a class")
+        return part  # type: ignore[no-any-return]

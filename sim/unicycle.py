@@ -1,0 +1,82 @@
+"""The kinematic plant of the paper: the base is a unicycle that executes its command exactly."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from .errors import SimulationError
+from .plant import HUMAN_PLACE, PlantState, Rates
+from .topview import draw
+from .world import World
+
+
+class UnicyclePlant:
+    """Unicycle integrated along exact arcs; the interaction force is the intended one.
+
+    x' = v cos(theta), y' = v sin(theta), theta' = omega (Schneider et al., arXiv 2407.17275).
+    The human is carried along at a fixed place beside the base.
+
+    Parameters
+    ----------
+    rates : Rates
+    """
+
+    def __init__(self, rates: Rates) -> None:
+        self._period = rates.period
+        self._samples = rates.samples
+        self._pose = (0.0, 0.0, 0.0)
+        self._twist = (0.0, 0.0)
+        self._world: World | None = None
+
+    def reset(self, world: World, rng: np.random.Generator) -> PlantState:
+        """See `Plant.reset`."""
+        self._world = world
+        self._pose = world.start
+        self._twist = (0.0, 0.0)
+        return self._state((0.0, 0.0))
+
+    def step(
+        self, twist_command: tuple[float, float], hand_force: tuple[float, float]
+    ) -> PlantState:
+        """See `Plant.step`."""
+        v, omega = float(twist_command[0]), float(twist_command[1])
+        x, y, theta = self._pose
+        half = omega * self._period / 2.0
+        chord = v * self._period * (math.sin(half) / half if abs(half) > 1e-9 else 1.0)
+        self._pose = (
+            x + chord * math.cos(theta + half),
+            y + chord * math.sin(theta + half),
+            theta + 2.0 * half,
+        )
+        self._twist = (v, omega)
+        if not math.isfinite(sum(self._pose)):
+            raise SimulationError(f"the base's pose is {self._pose}: not finite")
+        return self._state(hand_force)
+
+    def _state(self, hand_force: tuple[float, float]) -> PlantState:
+        x, y, theta = self._pose
+        cos, sin = math.cos(theta), math.sin(theta)
+        place_x, place_y, place_theta = HUMAN_PLACE
+        force = np.empty((self._samples, 2))
+        force[:, 0], force[:, 1] = hand_force
+        return PlantState(
+            pose=self._pose,
+            twist=self._twist,
+            human_pose=(
+                x + cos * place_x - sin * place_y,
+                y + sin * place_x + cos * place_y,
+                theta + place_theta,
+            ),
+            force_on_base=force,
+        )
+
+    def render(self, width: int, height: int) -> np.ndarray:
+        """See `Plant.render`: a drawing from above."""
+        state = self._state((0.0, 0.0))
+        assert self._world is not None, "reset before render"
+        return draw(self._world, state, width, height)
+
+    def close(self) -> None:
+        """See `Plant.close`: nothing is held."""
