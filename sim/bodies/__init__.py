@@ -1,0 +1,1 @@
+"""Bodies of the PyBullet plant: URDF files, found with `importlib.resources`."""

@@ -1,0 +1,118 @@
+"""A drawing of the scene from above, on matplotlib's Agg canvas."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle, Ellipse, FancyArrow, Polygon, Rectangle
+from numpy.typing import NDArray
+
+from .plant import BASE_RADIUS, HUMAN_RADIUS, PlantState
+from .world import World
+
+SPAN = 6.0
+"""Width of the ground in the picture, m."""
+METRES_PER_NEWTON = 0.1
+"""Length of the force arrow."""
+
+FLOOR, WALL, PATH = "#f2f0ec", "#5c5f66", "#8c8f96"
+BASE, HEADING, HUMAN, HEAD, FORCE = "#0d7390", "#ffffff", "#b8383a", "#3f2a1c", "#e8890c"
+PUDDLE, SOLID = "#4c9be8", "#7a6a58"
+
+
+def draw(world: World, state: PlantState, width: int, height: int) -> NDArray[np.uint8]:
+    """Draw walls, path, obstacles, base, human and the force on the base, seen from above.
+
+    The picture follows the base; world x points right and y up.
+
+    Parameters
+    ----------
+    world : World
+    state : PlantState
+        The last sample of its force is drawn.
+    width, height : int
+        Size in pixels.
+
+    Returns
+    -------
+    ndarray, shape (height, width, 3), uint8
+    """
+    figure = Figure(figsize=(width / 100.0, height / 100.0), dpi=100)
+    canvas = FigureCanvasAgg(figure)
+    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0), facecolor=FLOOR)
+    x, y, theta = state.pose
+    half_height = SPAN / 2.0 * height / width
+    axes.set_xlim(x - SPAN * 0.4, x + SPAN * 0.6)
+    centre = 0.0 if world.corridor and world.corridor.width < 2.0 * half_height else y
+    axes.set_ylim(centre - half_height, centre + half_height)
+    axes.set_xticks([])
+    axes.set_yticks([])
+    axes.set_frame_on(True)
+
+    _ground(axes, world)
+    _human(axes, state.human_pose)
+    axes.add_patch(Circle((x, y), BASE_RADIUS, facecolor=BASE, edgecolor="white", zorder=4))
+    nose = np.array([[0.24, 0.0], [0.06, 0.13], [0.06, -0.13]])
+    cos, sin = math.cos(theta), math.sin(theta)
+    turn = np.array([[cos, sin], [-sin, cos]])
+    axes.add_patch(Polygon(nose @ turn + (x, y), facecolor=HEADING, zorder=5))
+    force = state.force_on_base[-1] @ turn * METRES_PER_NEWTON
+    if np.hypot(*force) > 0.02:
+        axes.add_patch(
+            FancyArrow(
+                x,
+                y,
+                *force,
+                width=0.05,
+                head_width=0.16,
+                length_includes_head=True,
+                facecolor=FORCE,
+                edgecolor="white",
+                zorder=6,
+            )
+        )
+    canvas.draw()
+    return np.array(canvas.buffer_rgba(), dtype=np.uint8)[..., :3].copy()
+
+
+def _ground(axes: Axes, world: World) -> None:
+    left, right = axes.get_xlim()
+    bottom, top = axes.get_ylim()
+    if world.corridor:
+        half = world.corridor.width / 2.0
+        for edge, end in ((half, max(top, half + 1.0)), (min(bottom, -half - 1.0), -half)):
+            axes.add_patch(
+                Rectangle((left, edge), right - left, end - edge, facecolor=WALL, zorder=2)
+            )
+    stations = np.linspace(left - right, world.path.length + right - left, 400)
+    axes.plot(*world.path.point_at(stations).T, "--", color=PATH, linewidth=1.5, zorder=1)
+    for thing in world.obstacles:
+        axes.add_patch(
+            Circle(
+                (thing.x, thing.y),
+                thing.radius,
+                facecolor=SOLID if thing.solid else PUDDLE,
+                alpha=1.0 if thing.solid else 0.6,
+                zorder=3 if thing.solid else 1.5,
+            )
+        )
+
+
+def _human(axes: Axes, pose: tuple[float, float, float]) -> None:
+    x, y, theta = pose
+    axes.add_patch(
+        Ellipse(
+            (x, y),
+            HUMAN_RADIUS * 1.1,
+            HUMAN_RADIUS * 2.0,
+            angle=math.degrees(theta),
+            facecolor=HUMAN,
+            edgecolor="white",
+            zorder=4,
+        )
+    )
+    axes.add_patch(Circle((x, y), HUMAN_RADIUS * 0.45, facecolor=HEAD, zorder=5))
