@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field
 
 from cowalk.agents.automations.settings import NegotiationSettings
 from cowalk.agents.humans.intention import IntentionSettings
@@ -17,20 +17,16 @@ SUFFIX = ".scenario.yaml"
 """How the name of a scenario file ends."""
 
 
-def _name_alone(value: Any) -> Any:
-    return {"name": value} if isinstance(value, str) else value
-
-
 class Component(BaseModel):
-    """A replaceable part: its registered name or ``module:Class``, and its parameters."""
+    """A replaceable part: its registered name or ``module:Class``, and its parameters.
+
+    A file may give the name alone, ``human: steady`` for ``human: {name: steady}``.
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     name: str
     parameters: dict[str, Any] = Field(default_factory=dict)
-
-
-Named = Annotated[Component, BeforeValidator(_name_alone)]
 
 
 class HumanComponent(Component):
@@ -43,7 +39,7 @@ class AutomationComponent(Component):
     """The automation seat. ``negotiation`` and ``smoother`` stay when the strategy is swapped."""
 
     negotiation: NegotiationSettings = Field(default_factory=NegotiationSettings)
-    smoother: Named = Component(name="moving-average")
+    smoother: Component = Component(name="moving-average")
 
 
 class Scenario(BaseModel):
@@ -56,11 +52,11 @@ class Scenario(BaseModel):
     seed: Annotated[int, Field(ge=0)] = 0
     duration: Annotated[float, Field(gt=0.0, allow_inf_nan=False)] = 30.0
     pace: Annotated[float, Field(gt=0.0, allow_inf_nan=False)] = 0.8
-    plant: Named = Component(name="bullet")
+    plant: Component = Component(name="bullet")
     rates: Rates = Rates()
     world: World
     sensor: SensorParameters = SensorParameters()
     bounds: TwistBounds = TwistBounds()
-    human: Annotated[HumanComponent, BeforeValidator(_name_alone)]
-    automation: Annotated[AutomationComponent, BeforeValidator(_name_alone)]
+    human: HumanComponent
+    automation: AutomationComponent
     expect: dict[str, str] = Field(default_factory=dict)

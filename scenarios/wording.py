@@ -1,0 +1,161 @@
+"""Validation by pydantic, reported in words a newcomer understands."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import types
+import typing
+from collections.abc import Sequence
+from typing import Any, TypeVar, get_args, get_origin
+
+import yaml
+from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
+
+from cowalk.sim.registry import did_you_mean
+
+from .documents import KeyPath, Problem, Step, dotted, not_plain
+
+M = TypeVar("M", bound=BaseModel)
+
+_NOUNS = {
+    "float_type": "a number",
+    "int_type": "a whole number",
+    "int_from_float": "a whole number",
+    "bool_type": "true or false",
+    "string_type": "text",
+    "list_type": "a list",
+    "tuple_type": "a list",
+    "dict_type": "a section with keys of its own",
+    "model_type": "a section with keys of its own",
+    "dataclass_type": "a section with keys of its own",
+    "none_required": "null",
+}
+_LIMITS = {
+    "greater_than": ("above", "gt"),
+    "greater_than_equal": ("at least", "ge"),
+    "less_than": ("below", "lt"),
+    "less_than_equal": ("at most", "le"),
+}
+
+
+def validate(model: type[M], data: Any, at: KeyPath = ()) -> tuple[M | None, list[Problem]]:
+    """Return a validated model, or every problem of the data.
+
+    Nothing is converted but whole numbers to numbers and lists to tuples: a quoted number, or
+    a true where a number belongs, is refused.
+
+    Parameters
+    ----------
+    model
+        The pydantic model to validate against.
+    data
+        Plain data.
+    at
+        Where the data stand in their document.
+    """
+    found = {problem.path: problem for problem in not_plain(data, at)}
+    validated = None
+    try:
+        # As JSON, because only there does strict validation take a list for a tuple.
+        text = json.dumps(data, default=str)
+        validated = model.model_validate_json(text, strict=True)
+    except ValidationError as error:
+        for details in error.errors():
+            path = _place(details, data)
+            message = _message(details, path, at, model)
+            found.setdefault((*at, *path), Problem((*at, *path), message))
+    return (None if found else validated), list(found.values())
+
+
+def _place(details: ErrorDetails, data: Any) -> KeyPath:
+    """Return the place of an error, without the steps that name an arm of a union."""
+    path: list[Step] = []
+    for position, step in enumerate(details["loc"]):
+        inside_list = isinstance(data, list) and isinstance(step, int) and step < len(data)
+        if inside_list or (isinstance(data, dict) and step in data):
+            data = data[step]
+        elif details["type"] != "missing" or position < len(details["loc"]) - 1:
+            continue
+        path.append(step)
+    return tuple(path)
+
+
+def _message(details: ErrorDetails, path: KeyPath, at: KeyPath, model: type[BaseModel]) -> str:
+    key, kind, value = dotted((*at, *path)), details["type"], details["input"]
+    if kind == "missing":
+        too_short = ": the list is too short" if isinstance(path[-1], int) else ""
+        return f"{key or 'the entry'} is missing{too_short}"
+    if kind in ("extra_forbidden", "unexpected_keyword_argument"):
+        known = known_keys(model, path[:-1])
+        hint = did_you_mean(str(path[-1]), known) if known else "nothing can be set here"
+        return f"{key}: unknown key; {hint}"
+    if kind == "value_error":
+        reason = str(details["ctx"]["error"])
+        return reason if key and reason.startswith(key) else f"{key}: {reason}"
+    return f"{key}{shown(value)}: {_cure(details)}"
+
+
+def shown(value: Any) -> str:
+    """Return `` = value`` as YAML writes it, or nothing where that would be long."""
+    text = json.dumps(value, ensure_ascii=False) if not isinstance(value, str) else repr(value)
+    return f" = {text}" if len(text) <= 60 else ""
+
+
+def _cure(details: ErrorDetails) -> str:
+    kind, value, context = details["type"], details["input"], details.get("ctx", {})
+    if kind in _NOUNS:
+        return f"{_NOUNS[kind]} is expected{_instead_of(kind, value)}"
+    if kind in _LIMITS:
+        word, name = _LIMITS[kind]
+        return f"it must be {word} {context[name]}"
+    if kind == "literal_error":
+        return f"it must be {context['expected']}"
+    if kind == "too_long":
+        return f"the list has {len(value)} entries, it can have {context['max_length']}"
+    if kind == "too_short":
+        return f"the list has {len(value)} entries, it needs {context['min_length']}"
+    return details["msg"].replace("Input should", "it should")
+
+
+def _instead_of(kind: str, value: Any) -> str:
+    if isinstance(value, str):
+        try:
+            number = int(value) if kind == "int_type" or value.isdecimal() else float(value)
+        except ValueError:
+            return ", not text"
+        # YAML takes 1e-3 for text, so the number is shown as YAML writes it.
+        return f", not text; write {yaml.safe_dump(number).split()[0]} without quotes"
+    if value is None:
+        return ", nothing is given"
+    quotes = "; put it in quotes" if kind == "string_type" else ""
+    if isinstance(value, bool):
+        return f", not true or false{quotes}"
+    if isinstance(value, int | float) and quotes:
+        return f", not a number{quotes}"
+    return ""
+
+
+def known_keys(hint: Any, path: Sequence[Step]) -> list[str]:
+    """Return the keys that the section at a path of an annotation accepts; none if any are."""
+    if get_origin(hint) is typing.Annotated:
+        return known_keys(get_args(hint)[0], path)
+    if get_origin(hint) in (typing.Union, types.UnionType):
+        arms = (known_keys(arm, path) for arm in get_args(hint))
+        return next((keys for keys in arms if keys), [])
+    if isinstance(hint, type) and issubclass(hint, BaseModel):
+        fields = {item.alias or name: item.annotation for name, item in hint.model_fields.items()}
+    elif isinstance(hint, type) and dataclasses.is_dataclass(hint):
+        hints = typing.get_type_hints(hint)
+        fields = {item.name: hints[item.name] for item in dataclasses.fields(hint) if item.init}
+    elif get_args(hint) and path and isinstance(path[0], int):
+        arms_of_list = get_args(hint)
+        return known_keys(arms_of_list[min(path[0], len(arms_of_list) - 1)], path[1:]) or (
+            known_keys(arms_of_list[0], path[1:])
+        )
+    else:
+        return []
+    if not path:
+        return list(fields)
+    return known_keys(fields.get(str(path[0])), path[1:])
