@@ -8,16 +8,23 @@ from dataclasses import fields
 from typing import TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
-from .bullet_engine import Body, connect, disconnect, engine, force_on_parent, load_driven
+from .bullet_engine import connect, disconnect, engine, force_on_parent, load_driven
+from .bullet_view import Viewer
 from .drive import DriveParameters, SlipDrive
 from .errors import InputError, SimulationError
+from .motion import Array
 from .plant import HUMAN_PLACE, PlantState, Rates
 from .walker import Arm, Walker, WalkerParameters
 from .world import World
 
 BASE_JOINTS = ("x", "y", "yaw")
 HUMAN_JOINTS = ("x", "y", "yaw", "shoulder", "elbow")
+MAX_HELD = 3
+"""Physics steps for which the human's joint forces are held at most: muscles need no 240 Hz."""
+SOLVER_ITERATIONS = 10
+"""Enough for one grip: its reaction differs from that of 50 iterations by under 1e-6 N."""
 MAX_SPEED = 5.0
 """Speed of a body beyond which the simulation counts as diverged, m/s (inferred)."""
 MAX_RATE = 20.0
@@ -27,13 +34,12 @@ P = TypeVar("P", DriveParameters, WalkerParameters)
 
 
 def _parameters(name: str, kind: type[P], given: P | Mapping[str, float] | None) -> P:
-    if isinstance(given, kind):
-        return given
-    try:
-        return kind(**(given or {}))
-    except TypeError:
-        known = ", ".join(field.name for field in fields(kind))
-        raise InputError(f"{name} = {given!r}: its keys must be out of {known}") from None
+    if not isinstance(given, Mapping):
+        return given if given is not None else kind()
+    known = [field.name for field in fields(kind)]
+    if unknown := [key for key in given if key not in known]:
+        raise InputError(f"{name}.{unknown[0]}: unknown key; known: {', '.join(known)}")
+    return kind(**given)
 
 
 class BulletPlant:
@@ -48,11 +54,13 @@ class BulletPlant:
     rates : Rates
     drive : DriveParameters or mapping, optional
     walker : WalkerParameters or mapping, optional
+    gui : bool
+        Show the run in a window, at no more than real time.
 
     Raises
     ------
     InputError
-        If a parameter is unknown.
+        If a parameter is unknown, or the window cannot be opened.
     """
 
     def __init__(
@@ -60,19 +68,22 @@ class BulletPlant:
         rates: Rates,
         drive: DriveParameters | Mapping[str, float] | None = None,
         walker: WalkerParameters | Mapping[str, float] | None = None,
+        gui: bool = False,
     ) -> None:
-        self._substeps = rates.substeps
-        self._samples = rates.samples
+        self._rates = rates
+        # Whole numbers of held steps in a control step: a new intent acts at once.
+        self._held = max(n for n in range(1, MAX_HELD + 1) if rates.substeps % n == 0)
         step = 1.0 / rates.physics
         drive = _parameters("drive", DriveParameters, drive)
         walker = _parameters("walker", WalkerParameters, walker)
 
         self._client = client = connect()
         engine.setTimeStep(step, client)
-        self._base = base = load_driven(client, "base.urdf", "handle")
-        self._human = human = load_driven(client, "human.urdf", "hand")
-        self._base_joints = tuple(base.joints[name] for name in BASE_JOINTS)
-        self._human_joints = tuple(human.joints[name] for name in HUMAN_JOINTS)
+        engine.setPhysicsEngineParameter(
+            numSolverIterations=SOLVER_ITERATIONS, physicsClientId=client
+        )
+        self._base = base = load_driven(client, "base.urdf", "handle", BASE_JOINTS)
+        self._human = human = load_driven(client, "human.urdf", "hand", HUMAN_JOINTS)
         self._grip = engine.createConstraint(
             base.body,
             base.grip_link,
@@ -84,21 +95,18 @@ class BulletPlant:
             human.grip_pivot,
             physicsClientId=client,
         )
-        trunk = engine.getDynamicsInfo(base.body, base.joints["yaw"], client)
-        self._drive = SlipDrive(drive, trunk[0], trunk[2][2], step)
+        self._drive = SlipDrive(drive, base.mass, base.yaw_inertia, step)
         shoulder, elbow, hand = (human.origins[n] for n in ("upper_arm", "forearm", "hand"))
+        arm = Arm((shoulder[0], shoulder[1]), elbow[0] - shoulder[0], hand[0] - elbow[0])
+        handle = base.origins["handle"]
         self._walker = Walker(
-            walker,
-            Arm((shoulder[0], shoulder[1]), elbow[0] - shoulder[0], hand[0] - elbow[0]),
-            HUMAN_PLACE,
-            base.origins["handle"][:2],
-            sum(
-                engine.getDynamicsInfo(human.body, joint, client)[0]
-                for joint in human.joints.values()
-            ),
-            step,
+            walker, arm, HUMAN_PLACE, (handle[0], handle[1]), human.mass, step * self._held
         )
+        self._gui = gui
+        self._viewer: Viewer | None = None
         self._world: World | None = None
+        self._base_state: tuple[float, ...] = ()
+        self._human_state: tuple[float, ...] = ()
 
     def reset(self, world: World, rng: np.random.Generator) -> PlantState:
         """See `Plant.reset`."""
@@ -106,102 +114,116 @@ class BulletPlant:
         x, y, yaw = world.start
         cos, sin = math.cos(yaw), math.sin(yaw)
         place_x, place_y, place_yaw = HUMAN_PLACE
-        human = (x + cos * place_x - sin * place_y, y + sin * place_x + cos * place_y)
-        self._place(self._base, self._base_joints, (x, y, yaw))
-        self._place(
-            self._human, self._human_joints, (*human, yaw + place_yaw, *self._walker.posture)
+        base = (x, y, yaw)
+        human = (
+            x + cos * place_x - sin * place_y,
+            y + sin * place_x + cos * place_y,
+            yaw + place_yaw,
+            *self._walker.posture,
         )
+        for body, angles in ((self._base, base), (self._human, human)):
+            for joint, angle in zip(body.joints, angles, strict=True):
+                engine.resetJointState(body.body, joint, angle, 0.0, self._client)
+        self._base_state = base + (0.0,) * len(base)
+        self._human_state = human + (0.0,) * len(human)
         self._drive.reset()
         self._walker.reset()
-        return self._state(np.zeros((self._samples, 2)), *self._read())
-
-    def _place(self, body: Body, joints: tuple[int, ...], angles: tuple[float, ...]) -> None:
-        for joint, angle in zip(joints, angles, strict=True):
-            engine.resetJointState(body.body, joint, angle, 0.0, self._client)
-
-    def _read(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
-        q = engine.getJointStates
-        (x, vx, _, _), (y, vy, _, _), (yaw, rate, _, _) = q(
-            self._base.body, self._base_joints, self._client
-        )
-        a, b, c, d, e = q(self._human.body, self._human_joints, self._client)
-        return (
-            (x, y, yaw, vx, vy, rate),
-            (a[0], b[0], c[0], d[0], e[0], a[1], b[1], c[1], d[1], e[1]),
-        )
+        self._watch()
+        return self._state(np.zeros((self._rates.samples, 2)))
 
     def step(
         self, twist_command: tuple[float, float], hand_force: tuple[float, float]
     ) -> PlantState:
         """See `Plant.step`."""
         push = (float(hand_force[0]), float(hand_force[1]))
-        v, omega = float(twist_command[0]), float(twist_command[1])
-        for name, pair in (("twist_command", (v, omega)), ("hand_force", push)):
+        speed, rate = float(twist_command[0]), float(twist_command[1])
+        for name, pair in (("twist_command", (speed, rate)), ("hand_force", push)):
             if not (math.isfinite(pair[0]) and math.isfinite(pair[1])):
                 raise SimulationError(f"{name} = {pair} is not finite")
-        self._drive.command(v, omega)
+        self._drive.command(speed, rate)
 
-        client, grip = self._client, self._grip
-        base_body, base_joints = self._base.body, self._base_joints
-        human_body, human_joints = self._human.body, self._human_joints
-        wrench, forces, read = self._drive.wrench, self._walker.forces, self._read
+        # This loop is the cost of a run: names are bound here, and engine calls take all their
+        # arguments by position, which makes the joint call 1 us faster than keywords do.
+        client, grip, kind = self._client, self._grip, engine.JOINT_POINT2POINT
+        base_body, base_joints = self._base.body, self._base.joints
+        human_body, human_joints = self._human.body, self._human.joints
+        base_zeros, human_zeros = (0.0,) * len(base_joints), (0.0,) * len(human_joints)
+        wrench, forces = self._drive.wrench, self._walker.forces
         apply, torque = engine.setJointMotorControlArray, engine.TORQUE_CONTROL
-        advance, reaction = engine.stepSimulation, engine.getConstraintState
-        kind = engine.JOINT_POINT2POINT
-        every = self._substeps // self._samples
+        advance, read, reaction = (
+            engine.stepSimulation,
+            engine.getJointStates,
+            engine.getConstraintState,
+        )
+        held, sampled = self._held, self._rates.physics // self._rates.sensor
         samples = []
-        base, human = read()
-        cos, sin = math.cos(base[2]), math.sin(base[2])
-        for substep in range(1, self._substeps + 1):
-            _, _, _, vx, vy, rate = base
+        human_forces = human_zeros
+        base, human = self._base_state, self._human_state
+        _, _, yaw, vx, vy, rate = base
+        cos, sin = math.cos(yaw), math.sin(yaw)
+        for substep in range(self._rates.substeps):
+            if substep % held == 0:
+                human_forces = forces(base, human, cos, sin, push)
             along, across, turn = wrench(cos * vx + sin * vy, cos * vy - sin * vx, rate)
-            apply(
-                base_body,
-                base_joints,
-                torque,
-                forces=(cos * along - sin * across, sin * along + cos * across, turn),
-                physicsClientId=client,
-            )
-            apply(
-                human_body,
-                human_joints,
-                torque,
-                forces=forces(base, human, cos, sin, push),
-                physicsClientId=client,
-            )
+            base_forces = (cos * along - sin * across, sin * along + cos * across, turn)
+            z = base_zeros
+            apply(base_body, base_joints, torque, z, z, base_forces, z, z, client)
+            z = human_zeros
+            apply(human_body, human_joints, torque, z, z, human_forces, z, z, client)
             advance(client)
-            base, human = read()
-            cos, sin = math.cos(base[2]), math.sin(base[2])
-            if substep % every == 0:
+            (x, vx, _, _), (y, vy, _, _), (yaw, rate, _, _) = read(base_body, base_joints, client)
+            base = (x, y, yaw, vx, vy, rate)
+            cos, sin = math.cos(yaw), math.sin(yaw)
+            if (substep + 1) % held == 0:
+                joints = read(human_body, human_joints, client)
+                human = (*[j[0] for j in joints], *[j[1] for j in joints])
+            if (substep + 1) % sampled == 0:
                 fx, fy, _ = force_on_parent(kind, reaction(grip, client))
                 samples.append((cos * fx + sin * fy, cos * fy - sin * fx))
-        return self._state(np.array(samples), base, human)
+        self._base_state, self._human_state = base, human
+        self._watch()
+        return self._state(np.array(samples))
 
-    def _state(
-        self, force: np.ndarray, base: tuple[float, ...], human: tuple[float, ...]
-    ) -> PlantState:
-        x, y, yaw, vx, vy, rate = base
-        for name, speed_x, speed_y, turn in (
-            ("base", vx, vy, rate),
-            ("human", human[5], human[6], human[7]),
-        ):
+    def _state(self, force: Array) -> PlantState:
+        x, y, yaw, vx, vy, rate = self._base_state
+        human = self._human_state
+        for name, velocity in (("base", (vx, vy, rate)), ("human", human[5:8])):
             # Written so that a NaN fails it.
-            if not (math.hypot(speed_x, speed_y) < MAX_SPEED and abs(turn) < MAX_RATE):
+            if not (math.hypot(*velocity[:2]) < MAX_SPEED and abs(velocity[2]) < MAX_RATE):
                 raise SimulationError(
-                    f"the {name} moves at ({speed_x:.3g}, {speed_y:.3g}) m/s, {turn:.3g} rad/s: "
-                    f"diverged (limits {MAX_SPEED} m/s, {MAX_RATE} rad/s)"
+                    f"the {name} moves at ({velocity[0]:.3g}, {velocity[1]:.3g}) m/s and "
+                    f"{velocity[2]:.3g} rad/s: diverged (beyond {MAX_SPEED} m/s, {MAX_RATE} rad/s)"
                 )
         return PlantState(
             pose=(x, y, yaw),
             twist=(math.cos(yaw) * vx + math.sin(yaw) * vy, rate),
-            human_pose=human[:3],
+            human_pose=(human[0], human[1], human[2]),
             force_on_base=force,
         )
 
     def bare_step(self) -> None:
-        """Step the engine alone, nothing driven: what benchmarks compare with."""
+        """Step the engine alone, nothing driven or read: what a benchmark compares with."""
         engine.stepSimulation(self._client)
+
+    def _view(self) -> Viewer:
+        assert self._world is not None, "reset before render"
+        if self._viewer is None or self._viewer.world != self._world:
+            if self._viewer is not None:
+                self._viewer.close()
+            self._viewer = Viewer(self._world, self._gui)
+        self._viewer.show(self._base_state[:3], self._human_state[:5])
+        return self._viewer
+
+    def _watch(self) -> None:
+        if self._gui:
+            self._view().wait(self._rates.period)
+
+    def render(self, width: int, height: int) -> NDArray[np.uint8]:
+        """See `Plant.render`: a chase camera, rendered in software."""
+        return self._view().picture(width, height)
 
     def close(self) -> None:
         """See `Plant.close`."""
+        if self._viewer is not None:
+            self._viewer.close()
         disconnect(self._client)

@@ -105,23 +105,28 @@ class Body:
     Attributes
     ----------
     body : int
-    joints : dict of str to int
-        Index of each moving joint, which is also that of the link behind it.
+    joints : tuple of int
+        Indices of the moving joints, in the order asked for.
     origins : dict of str to (x, y, z)
         Where each link's joint is with all joints at zero, fixed links included, m.
+    mass, yaw_inertia : float
+        Of all links, kg, and of the link behind the joint ``yaw`` about its centre, kg m^2.
     grip_link : int
+        Link that carries the grip.
     grip_pivot : (x, y, z)
-        Where it is held, in the inertial frame of ``grip_link``, m.
+        Where the grip is in the inertial frame of that link, m.
     """
 
     body: int
-    joints: dict[str, int]
+    joints: tuple[int, ...]
     origins: dict[str, tuple[float, float, float]]
+    mass: float
+    yaw_inertia: float
     grip_link: int
     grip_pivot: tuple[float, float, float]
 
 
-def load_driven(client: int, file: str, grip: str) -> Body:
+def load_driven(client: int, file: str, grip: str, joints: tuple[str, ...]) -> Body:
     """Load a body for the physics: no pictures, no collision, no damping, no motors.
 
     It is loaded twice: the fixed links tell where things are, but a body without them steps
@@ -130,54 +135,60 @@ def load_driven(client: int, file: str, grip: str) -> Body:
     Parameters
     ----------
     client : int
+        Where to load it.
     file : str
         URDF in `cowalk.sim.bodies`.
     grip : str
-        Link by which it is held.
+        Link by which it is held; fixed links between it and a moving one are followed.
+    joints : tuple of str
+        Names of all moving joints, ``yaw`` among them.
     """
     # Without the second flag the engine makes up inertias from the (absent) collision shapes.
     bare = engine.URDF_IGNORE_VISUAL_SHAPES | engine.URDF_USE_INERTIA_FROM_FILE
     whole = load(client, file, bare)
-    origins, parents = {}, {}
-    for joint in range(engine.getNumJoints(whole, client)):
-        info = engine.getJointInfo(whole, joint, client)
-        state = engine.getLinkState(whole, joint, 0, 1, client)
-        name = info[12].decode()
-        origins[name] = state[4]
-        parents[name] = (
-            engine.getJointInfo(whole, info[16], client)[12].decode()
-            if (info[2] == engine.JOINT_FIXED and info[16] >= 0)
-            else None
-        )
+    info = [
+        engine.getJointInfo(whole, j, client) for j in range(engine.getNumJoints(whole, client))
+    ]
+    links = [i[12].decode() for i in info]
+    origins = {link: engine.getLinkState(whole, j, 0, 1, client)[4] for j, link in enumerate(links)}
+    carrier = links.index(grip)
+    while info[carrier][2] == engine.JOINT_FIXED:
+        carrier = info[carrier][16]
+    carrier_joint = info[carrier][1]
     engine.removeBody(whole, client)
-    carrier = grip
-    while (parent := parents[carrier]) is not None:
-        carrier = parent
 
     body = load(client, file, bare | engine.URDF_MERGE_FIXED_LINKS)
-    joints, grip_link = {}, -1
-    for joint in range(-1, engine.getNumJoints(body, client)):
+    count = engine.getNumJoints(body, client)
+    index = {engine.getJointInfo(body, j, client)[1]: j for j in range(count)}
+    for link in range(-1, count):
         engine.changeDynamics(
             body,
-            joint,
+            link,
             linearDamping=0.0,
             angularDamping=0.0,
             jointDamping=0.0,
             physicsClientId=client,
         )
-        engine.setCollisionFilterGroupMask(body, joint, 0, 0, client)
-        if joint >= 0:
-            info = engine.getJointInfo(body, joint, client)
-            joints[info[1].decode()] = joint
-            if info[12].decode() == carrier:
-                grip_link = joint
+        engine.setCollisionFilterGroupMask(body, link, 0, 0, client)
+        if link >= 0:
             engine.setJointMotorControl2(
-                body, joint, engine.VELOCITY_CONTROL, force=0.0, physicsClientId=client
+                body, link, engine.VELOCITY_CONTROL, force=0.0, physicsClientId=client
             )
+    dynamics = [engine.getDynamicsInfo(body, link, client) for link in range(count)]
+    grip_link = index[carrier_joint]
     centre = engine.getLinkState(body, grip_link, 0, 1, client)
-    to_link = engine.invertTransform(centre[0], centre[1])
-    pivot, _ = engine.multiplyTransforms(*to_link, origins[grip], (0.0, 0.0, 0.0, 1.0))
-    return Body(body, joints, origins, grip_link, pivot)
+    pivot, _ = engine.multiplyTransforms(
+        *engine.invertTransform(*centre[:2]), origins[grip], (0.0, 0.0, 0.0, 1.0)
+    )
+    return Body(
+        body=body,
+        joints=tuple(index[name.encode()] for name in joints),
+        origins=origins,
+        mass=sum(d[0] for d in dynamics),
+        yaw_inertia=dynamics[index[b"yaw"]][2][2],
+        grip_link=grip_link,
+        grip_pivot=pivot,
+    )
 
 
 def force_on_parent(kind: int, reaction: tuple[float, ...]) -> tuple[float, float, float]:

@@ -1,12 +1,12 @@
-"""A drawing of the scene from above, on matplotlib's Agg canvas."""
+"""A drawing of the scene from above: matplotlib without pyplot, so nothing global is touched."""
 
 from __future__ import annotations
 
+import io
 import math
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Ellipse, FancyArrow, Polygon, Rectangle
 from numpy.typing import NDArray
@@ -32,6 +32,7 @@ def draw(world: World, state: PlantState, width: int, height: int) -> NDArray[np
     Parameters
     ----------
     world : World
+        What is on the ground.
     state : PlantState
         The last sample of its force is drawn.
     width, height : int
@@ -42,7 +43,6 @@ def draw(world: World, state: PlantState, width: int, height: int) -> NDArray[np
     ndarray, shape (height, width, 3), uint8
     """
     figure = Figure(figsize=(width / 100.0, height / 100.0), dpi=100)
-    canvas = FigureCanvasAgg(figure)
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0), facecolor=FLOOR)
     x, y, theta = state.pose
     half_height = SPAN / 2.0 * height / width
@@ -51,7 +51,7 @@ def draw(world: World, state: PlantState, width: int, height: int) -> NDArray[np
     axes.set_ylim(centre - half_height, centre + half_height)
     axes.set_xticks([])
     axes.set_yticks([])
-    axes.set_frame_on(True)
+    axes.spines[:].set_visible(False)
 
     _ground(axes, world)
     _human(axes, state.human_pose)
@@ -75,8 +75,10 @@ def draw(world: World, state: PlantState, width: int, height: int) -> NDArray[np
                 zorder=6,
             )
         )
-    canvas.draw()
-    return np.array(canvas.buffer_rgba(), dtype=np.uint8)[..., :3].copy()
+    pixels = io.BytesIO()
+    figure.savefig(pixels, format="rgba", dpi=100)
+    picture = np.frombuffer(pixels.getvalue(), dtype=np.uint8).reshape(height, width, 4)
+    return picture[..., :3].copy()
 
 
 def _ground(axes: Axes, world: World) -> None:

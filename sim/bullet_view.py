@@ -1,0 +1,178 @@
+"""Pictures of the PyBullet plant: the same bodies posed in a world that is only looked at.
+
+The physics has a world of its own, without pictures or scenery, and pays nothing for being
+watched; a run is the same whether or not anybody looks.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .bullet_engine import connect, disconnect, engine, load
+from .world import World
+
+WALL_HEIGHT, WALL_THICKNESS = 0.25, 0.10
+SOLID_HEIGHT = 0.8
+TILE = 1.0
+"""Side of the floor's tiles, m: without them one cannot see that the pair moves."""
+MARGIN = 6.0
+"""How far floor and walls reach beyond path and start, m."""
+FLOOR, FLOOR_DARK = (0.80, 0.78, 0.74, 1.0), (0.74, 0.72, 0.68, 1.0)
+WALL, PUDDLE, SOLID = (0.55, 0.57, 0.60, 1.0), (0.20, 0.50, 0.90, 1.0), (0.55, 0.42, 0.28, 1.0)
+CAMERA_DISTANCE, CAMERA_PITCH, CAMERA_SIDE = 3.3, -24.0, 32.0
+"""Chase camera: m, degrees, and degrees to the left of straight behind the base."""
+
+
+class Viewer:
+    """Scenery, base and human, seen by a chase camera.
+
+    Parameters
+    ----------
+    world : World
+    gui : bool
+        Open a window; else pictures are rendered in software.
+
+    Raises
+    ------
+    InputError
+        If the window cannot be opened.
+    """
+
+    def __init__(self, world: World, gui: bool = False) -> None:
+        self.world = world
+        self._gui = gui
+        self._target = (0.0, 0.0, 0.8)
+        self._yaw = 0.0
+        self._shown = 0.0
+        self._client = connect(gui)
+        if gui:
+            engine.configureDebugVisualizer(engine.COV_ENABLE_GUI, 0, physicsClientId=self._client)
+            engine.configureDebugVisualizer(
+                engine.COV_ENABLE_RENDERING, 0, physicsClientId=self._client
+            )
+        self._bodies = [self._load("base.urdf"), self._load("human.urdf")]
+        self._build(world)
+        if gui:
+            engine.configureDebugVisualizer(
+                engine.COV_ENABLE_RENDERING, 1, physicsClientId=self._client
+            )
+
+    def _load(self, file: str) -> tuple[int, list[int]]:
+        body = load(self._client, file)
+        moving = [
+            joint
+            for joint in range(engine.getNumJoints(body, self._client))
+            if engine.getJointInfo(body, joint, self._client)[2] != engine.JOINT_FIXED
+        ]
+        return body, moving
+
+    def _build(self, world: World) -> None:
+        points = np.array([*world.path.points, world.start[:2]])
+        left, bottom = points.min(axis=0) - MARGIN
+        right, top = points.max(axis=0) + MARGIN
+        if world.corridor:
+            half = world.corridor.width / 2.0
+            bottom, top = -half, half
+            for side in (-1.0, 1.0):
+                self._box(
+                    ((left + right) / 2.0, side * (half + WALL_THICKNESS / 2.0), WALL_HEIGHT / 2.0),
+                    (right - left, WALL_THICKNESS, WALL_HEIGHT),
+                    WALL,
+                )
+        for row in range(math.ceil((top - bottom) / TILE)):
+            for column in range(math.ceil((right - left) / TILE)):
+                depth = min(TILE, top - bottom - row * TILE)
+                self._box(
+                    (
+                        left + (column + 0.5) * TILE,
+                        bottom + row * TILE + depth / 2.0,
+                        -0.01,
+                    ),
+                    (TILE, depth, 0.02),
+                    FLOOR_DARK if (row + column) % 2 else FLOOR,
+                )
+        for thing in world.obstacles:
+            height = SOLID_HEIGHT if thing.solid else 0.004
+            self._show(
+                engine.createVisualShape(
+                    engine.GEOM_CYLINDER,
+                    radius=thing.radius,
+                    length=height,
+                    rgbaColor=SOLID if thing.solid else PUDDLE,
+                    physicsClientId=self._client,
+                ),
+                (thing.x, thing.y, height / 2.0),
+            )
+
+    def _box(
+        self,
+        centre: tuple[float, float, float],
+        size: tuple[float, float, float],
+        colour: tuple[float, float, float, float],
+    ) -> None:
+        shape = engine.createVisualShape(
+            engine.GEOM_BOX,
+            halfExtents=[side / 2.0 for side in size],
+            rgbaColor=colour,
+            physicsClientId=self._client,
+        )
+        self._show(shape, centre)
+
+    def _show(self, shape: int, centre: tuple[float, float, float]) -> None:
+        engine.createMultiBody(
+            baseMass=0.0,
+            baseVisualShapeIndex=shape,
+            basePosition=centre,
+            physicsClientId=self._client,
+        )
+
+    def show(self, base: tuple[float, ...], human: tuple[float, ...]) -> None:
+        """Pose the bodies and let the camera follow.
+
+        Parameters
+        ----------
+        base : (x, y, yaw)
+            Joint positions, world axes, m and rad.
+        human : (x, y, yaw, shoulder, elbow)
+            Joint positions, m and rad.
+        """
+        for (body, moving), angles in zip(self._bodies, (base, human), strict=True):
+            for joint, angle in zip(moving, angles, strict=True):
+                engine.resetJointState(body, joint, angle, 0.0, self._client)
+        self._target = ((base[0] + human[0]) / 2.0, (base[1] + human[1]) / 2.0, 0.8)
+        self._yaw = math.degrees(base[2]) - 90.0 - CAMERA_SIDE
+        if self._gui:
+            engine.resetDebugVisualizerCamera(
+                CAMERA_DISTANCE, self._yaw, CAMERA_PITCH, self._target, self._client
+            )
+
+    def wait(self, period: float) -> None:
+        """Wait until a period (s) has passed since the last wait: a watcher wants real time."""
+        time.sleep(max(0.0, self._shown + period - time.perf_counter()))
+        self._shown = time.perf_counter()
+
+    def picture(self, width: int, height: int) -> NDArray[np.uint8]:
+        """Return what the chase camera sees, uint8, shape (height, width, 3)."""
+        view = engine.computeViewMatrixFromYawPitchRoll(
+            self._target, CAMERA_DISTANCE, self._yaw, CAMERA_PITCH, 0.0, 2
+        )
+        projection = engine.computeProjectionMatrixFOV(50.0, width / height, 0.1, 30.0)
+        pixels = engine.getCameraImage(
+            width,
+            height,
+            view,
+            projection,
+            lightDirection=(-2.0, 3.0, 6.0),
+            shadow=0,
+            renderer=engine.ER_TINY_RENDERER,
+            physicsClientId=self._client,
+        )[2]
+        return np.reshape(np.array(pixels, dtype=np.uint8), (height, width, 4))[..., :3].copy()
+
+    def close(self) -> None:
+        """Free the world. May be called twice."""
+        disconnect(self._client)
