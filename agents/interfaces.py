@@ -10,8 +10,9 @@ from dataclasses import dataclass, field
 from typing import Protocol, TypedDict
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from cowalk.sim.motion import Array, Path, TwistBounds
+from cowalk.sim.motion import Array, Path
 
 
 class Observation(TypedDict):
@@ -40,6 +41,18 @@ class Observation(TypedDict):
     time: Array
 
 
+class Bounds(Protocol):
+    """Bounds of a twist: a `TwistBounds`, or arrays of shape (..., 2) for a batch."""
+
+    @property
+    def lower(self) -> ArrayLike:
+        """Lower bounds ``[v, omega]``, m/s and rad/s."""
+
+    @property
+    def upper(self) -> ArrayLike:
+        """Upper bounds ``[v, omega]``, m/s and rad/s."""
+
+
 @dataclass(frozen=True)
 class Situation:
     """What both agents know before they start.
@@ -50,7 +63,7 @@ class Situation:
         Global path, world axes.
     pace : float
         Usual walking speed, m/s.
-    bounds : TwistBounds
+    bounds : Bounds
         Bounds of the twist that either may wish for.
     period : float
         Control period, s.
@@ -58,7 +71,7 @@ class Situation:
 
     path: Path
     pace: float
-    bounds: TwistBounds
+    bounds: Bounds
     period: float
 
 

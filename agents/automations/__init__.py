@@ -1,0 +1,1 @@
+"""Automations, one file a strategy; `cowalk.agents.registry` finds them by name."""

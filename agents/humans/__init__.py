@@ -1,0 +1,1 @@
+"""Human models, one file each; `cowalk.agents.registry` finds them by name."""

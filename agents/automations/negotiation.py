@@ -1,0 +1,116 @@
+"""The negotiation loop that strategies share: read the force, concede, settle, hold."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from copy import deepcopy
+
+import numpy as np
+
+from cowalk.agents.interfaces import Belief, Observation, Situation
+from cowalk.estimation.intent import human_wish, wish_change
+from cowalk.estimation.smoothing import MovingAverage, Smoother
+from cowalk.estimation.stubbornness import interaction_value, stubbornness, stubbornness_norm
+from cowalk.sim.motion import Array
+
+from .planner import PROBLEMS
+from .settings import NegotiationSettings
+from .utility import negotiated
+
+
+class NegotiatingAutomation(ABC):
+    """Renegotiates once a period and holds the agreed primitive in between.
+
+    A strategy says how much utility it gives up; the rest is the paper's loop. Every strategy
+    logs the same estimates, whether it uses them or not.
+
+    Parameters
+    ----------
+    negotiation : NegotiationSettings
+    smoother : Smoother
+        Smooths the interaction value; a copy of it smooths the logged stubbornness.
+    """
+
+    def __init__(
+        self,
+        negotiation: NegotiationSettings | None = None,
+        smoother: Smoother | None = None,
+    ) -> None:
+        self.negotiation = negotiation or NegotiationSettings()
+        self._interaction_smoother = smoother or MovingAverage()
+        self._stubbornness_smoother = deepcopy(self._interaction_smoother)
+
+    @abstractmethod
+    def utility_loss(self, interaction_smoothed: Array) -> Array:
+        """Return the utility that is given up, in [0, 1], shape (...)."""
+
+    def reset(self, rng: np.random.Generator, situation: Situation) -> None:
+        """See `Automation.reset`."""
+        settings = self.negotiation
+        self._steps = settings.steps(situation.period)
+        self._situation = situation
+        self._lower = np.asarray(situation.bounds.lower, dtype=float)
+        self._upper = np.asarray(situation.bounds.upper, dtype=float)
+        self._force_max = np.asarray(settings.force_max, dtype=float)
+        self._threshold = np.asarray(settings.force_threshold, dtype=float)
+        self._sensitivity = np.asarray(settings.sensitivity, dtype=float)
+        self._negotiated = slice(0 if settings.dimensions == "both" else 1, 2)
+        self._count = 0
+        self._belief = Belief()
+        self._twist = np.zeros(2)
+
+    def act(self, observation: Observation) -> Array:
+        """See `Automation.act`."""
+        if self._count % self._steps == 0:
+            self._twist = self._negotiate(observation)
+        self._count += 1
+        return self._twist
+
+    def belief(self) -> Belief:
+        """See `Automation.belief`."""
+        return self._belief
+
+    def _negotiate(self, observation: Observation) -> Array:
+        twist = observation["twist"]
+        force = observation["force"].mean(axis=-2)
+        pose = self._situation.path.absolute_pose(observation["pose"])
+        if self._count == 0:
+            self._wish_before = twist
+            self._loss = np.zeros(twist.shape[:-1])
+            self._interaction_smoother.reset(interaction_value(self._loss, self._loss))
+            self._stubbornness_smoother.reset(np.zeros(twist.shape))
+        estimate = stubbornness(
+            force, self._force_max, self._wish_before, twist, self._lower, self._upper
+        )
+        change = wish_change(
+            force, self._force_max, self._threshold, self._sensitivity, self._upper
+        )
+        wish = human_wish(twist, change, self._lower, self._upper)
+        interaction = interaction_value(
+            stubbornness_norm(estimate[..., self._negotiated]), self._loss
+        )
+        smoothed = self._interaction_smoother.update(interaction)
+        self._loss = self.utility_loss(smoothed)
+        problem = PROBLEMS[self.negotiation.dimensions](self.negotiation, self._situation, pose)
+        own = problem.wish()
+        target = 1.0 - self._loss
+        agreed = negotiated(problem, own, self._negotiable(wish), target)
+        self._wish_before = wish
+        self._belief = Belief(
+            stubbornness=estimate,
+            stubbornness_smoothed=self._stubbornness_smoother.update(estimate),
+            human_wish=wish,
+            wish=own,
+            interaction=interaction,
+            interaction_smoothed=smoothed,
+            utility_loss=self._loss,
+            target_utility=target,
+            negotiation=self._belief.negotiation + 1,
+        )
+        return agreed
+
+    def _negotiable(self, wish: Array) -> Array:
+        """Return the human's wish with the usual pace where v is not negotiated."""
+        if self.negotiation.dimensions == "both":
+            return wish
+        return np.stack((np.full_like(wish[..., 0], self._situation.pace), wish[..., 1]), axis=-1)

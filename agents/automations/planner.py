@@ -1,0 +1,207 @@
+"""The automation's own wish, and the Pareto front between it and the human's.
+
+Cost of a motion primitive: J = w1 d^2 + w2 v^2 + w3 omega^2 (Schneider et al., arXiv
+2407.17275). Where omega alone is negotiated, d is the distance of the arc's end from the
+path. Where v is negotiated too, that J would reward standing still, so d is measured to the
+path point that the usual pace reaches within the horizon.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+
+import numpy as np
+
+from cowalk.agents.interfaces import Situation
+from cowalk.sim.motion import Array, arc_displacement, compose, world_to_base
+
+from .settings import NegotiationSettings
+
+_POINTS = 33
+_ROUNDS = 3
+
+
+def minimise(cost: Callable[[Array], Array], low: Array, high: Array) -> Array:
+    """Return where a cost over an interval is least: repeated grids, then a parabola's vertex.
+
+    A grid finds the lowest of several valleys and a minimum at a bound, which bracketing
+    methods do not, and costs a handful of array operations for any number of lanes.
+
+    Parameters
+    ----------
+    cost : callable
+        Takes an array of shape (..., n) and returns the cost of each element.
+    low, high : ndarray, shape (...)
+
+    Returns
+    -------
+    ndarray, shape (...)
+    """
+    share = np.linspace(0.0, 1.0, _POINTS)
+    left, right = low[..., None], high[..., None]
+    for _ in range(_ROUNDS):
+        grid = left + (right - left) * share
+        value = cost(grid)
+        best = np.clip(np.argmin(value, axis=-1), 1, _POINTS - 2)[..., None]
+        around = best + np.array([-1, 0, 1])
+        abscissa = np.take_along_axis(grid, around, axis=-1)
+        left, right = abscissa[..., :1], abscissa[..., 2:]
+    before, here, after = np.moveaxis(np.take_along_axis(value, around, axis=-1), -1, 0)
+    bend = before - 2.0 * here + after
+    shift = np.where(bend > 0.0, 0.5 * (before - after) / np.where(bend > 0.0, bend, 1.0), 0.0)
+    cell = abscissa[..., 1] - abscissa[..., 0]
+    return np.asarray(abscissa[..., 1] + np.clip(shift, -1.0, 1.0) * cell)
+
+
+class Problem(ABC):
+    """What there is to negotiate at one pose.
+
+    Parameters
+    ----------
+    settings : NegotiationSettings
+        Horizon and weights; each may be an array of shape (...), a lane each.
+    situation : Situation
+    pose : ndarray, shape (..., 3)
+        World pose of the base.
+    """
+
+    def __init__(self, settings: NegotiationSettings, situation: Situation, pose: Array) -> None:
+        self._situation = situation
+        self._pose = pose
+        self._lower = np.asarray(situation.bounds.lower, dtype=float)
+        self._upper = np.asarray(situation.bounds.upper, dtype=float)
+        # One more axis: n primitives of the same pose.
+        self._horizon = np.asarray(settings.horizon, dtype=float)[..., None]
+        self._w1 = np.asarray(settings.distance_weight, dtype=float)[..., None]
+        self._w2 = np.asarray(settings.speed_weight, dtype=float)[..., None]
+        self._w3 = np.asarray(settings.turn_weight, dtype=float)[..., None]
+
+    @abstractmethod
+    def cost(self, twist: Array) -> Array:
+        """Return J, shape (..., n), of primitives of shape (..., n, 2), m/s and rad/s."""
+
+    @abstractmethod
+    def wish(self) -> Array:
+        """Return p_A*, the primitive of least cost within the bounds, shape (..., 2)."""
+
+    @abstractmethod
+    def front(self, share: Array, own: Array, human: Array) -> Array:
+        """Return points of the Pareto front between the two wishes.
+
+        A point minimises share * J + (1 - share) * |(p - p_H)/p_ub|^2, both normed to lie
+        between 0 at one side's wish and 1 at the other's.
+
+        Parameters
+        ----------
+        share : ndarray, shape (..., n)
+            Weight of the automation, 0 (the human's wish) to 1 (its own).
+        own, human : ndarray, shape (..., 2)
+            p_A* and the estimated human wish, m/s and rad/s.
+
+        Returns
+        -------
+        ndarray, shape (..., n, 2)
+        """
+
+    def _turn_bounds(self, lanes: tuple[int, ...]) -> tuple[Array, Array]:
+        low, high = self._lower[..., 1], self._upper[..., 1]
+        return np.broadcast_to(low, lanes), np.broadcast_to(high, lanes)
+
+
+class TurnProblem(Problem):
+    """Omega alone is negotiated, v is the usual pace; d is the distance from the path."""
+
+    def cost(self, twist: Array) -> Array:
+        """See `Problem.cost`."""
+        end = compose(self._pose[..., None, :], arc_displacement(twist, self._horizon))
+        offset = self._situation.path.relative_pose(end)[..., 1]
+        return np.asarray(
+            self._w1 * offset**2 + self._w2 * twist[..., 0] ** 2 + self._w3 * twist[..., 1] ** 2
+        )
+
+    def wish(self) -> Array:
+        """See `Problem.wish`."""
+        lanes = np.broadcast_shapes(
+            self._pose.shape[:-1], self._horizon.shape[:-1], self._upper.shape[:-1]
+        )
+        return self._at_pace(
+            minimise(lambda omega: self.cost(self._at_pace(omega)), *self._turn_bounds(lanes))
+        )
+
+    def front(self, share: Array, own: Array, human: Array) -> Array:
+        """See `Problem.front`; in one dimension it is the interval between the wishes."""
+        between = human[..., None, 1] + share * (own - human)[..., None, 1]
+        return self._at_pace(between)
+
+    def _at_pace(self, omega: Array) -> Array:
+        return np.stack((np.full_like(omega, self._situation.pace), omega), axis=-1)
+
+
+class TwistProblem(Problem):
+    """Omega and v are negotiated; d is the distance from the path point at the usual pace.
+
+    The arc's end is linear in v, so J is a parabola in v at every omega, and one search over
+    omega is enough.
+    """
+
+    def __init__(self, settings: NegotiationSettings, situation: Situation, pose: Array) -> None:
+        super().__init__(settings, situation, pose)
+        station = situation.path.relative_pose(pose)[..., :1]
+        goal = situation.path.point_at(station + situation.pace * self._horizon)
+        ahead = world_to_base(pose[..., None, :], goal)
+        self._ahead, self._left = ahead[..., 0], ahead[..., 1]
+
+    def _parabola(self, omega: Array) -> tuple[Array, Array, Array]:
+        """Return (a, b, c) of J = a v^2 - 2 b v + c, each of shape (..., n)."""
+        unit = arc_displacement(np.stack((np.ones_like(omega), omega), axis=-1), self._horizon)
+        square = unit[..., 0] ** 2 + unit[..., 1] ** 2
+        along = unit[..., 0] * self._ahead + unit[..., 1] * self._left
+        rest = self._w1 * (self._ahead**2 + self._left**2) + self._w3 * omega**2
+        return self._w1 * square + self._w2, self._w1 * along, rest
+
+    def cost(self, twist: Array) -> Array:
+        """See `Problem.cost`."""
+        v = twist[..., 0]
+        a, b, c = self._parabola(twist[..., 1])
+        return np.asarray((a * v - 2.0 * b) * v + c)
+
+    def wish(self) -> Array:
+        """See `Problem.wish`."""
+        lanes = self._pose.shape[:-1]
+        nobody = np.zeros((*lanes, 2))
+        return self._best(np.ones((*lanes, 1)), np.zeros((*lanes, 1)), nobody)[..., 0, :]
+
+    def front(self, share: Array, own: Array, human: Array) -> Array:
+        """See `Problem.front`."""
+        ends = self.cost(np.stack((human, own), axis=-2))
+        own_gap = np.maximum(ends[..., :1] - ends[..., 1:], 1e-12)
+        human_gap = np.sum(((own - human) / self._upper) ** 2, axis=-1)[..., None]
+        return self._best(share / own_gap, (1.0 - share) / np.maximum(human_gap, 1e-12), human)
+
+    def _best(self, own_weight: Array, human_weight: Array, human: Array) -> Array:
+        """Minimise own_weight * J + human_weight * |(p - p_H)/p_ub|^2 for each weight."""
+        lanes = own_weight.shape
+        scale = self._upper**-2
+        own = own_weight[..., None]
+        v_weight = human_weight[..., None] * scale[..., 0]
+        omega_weight = human_weight[..., None] * scale[..., 1]
+        v_human, omega_human = human[..., None, None, 0], human[..., None, None, 1]
+        low, high = self._lower[..., 0], self._upper[..., 0]
+
+        def solve(omega: Array) -> tuple[Array, Array]:
+            a, b, c = (part.reshape(omega.shape) for part in self._parabola(flat(omega)))
+            v = np.clip((own * b + v_weight * v_human) / (own * a + v_weight), low, high)
+            away = v_weight * (v - v_human) ** 2 + omega_weight * (omega - omega_human) ** 2
+            return v, own * ((a * v - 2.0 * b) * v + c) + away
+
+        def flat(omega: Array) -> Array:
+            return omega.reshape(*self._pose.shape[:-1], -1)
+
+        omega = minimise(lambda turn: solve(turn)[1], *self._turn_bounds(lanes))
+        v = solve(omega[..., None])[0][..., 0]
+        return np.stack((v, omega), axis=-1)
+
+
+PROBLEMS: dict[str, type[Problem]] = {"omega": TurnProblem, "both": TwistProblem}
+"""The problem that each choice of `NegotiationSettings.dimensions` poses."""

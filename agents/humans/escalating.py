@@ -1,0 +1,86 @@
+"""A human who insists more and more while nobody gives way, and relaxes when met."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from cowalk.agents.interfaces import Situation
+from cowalk.sim.motion import Array
+
+from .demand import DemandingHuman, Pair, require
+
+
+@dataclass(kw_only=True)
+class EscalatingHuman(DemandingHuman):
+    """Stubbornness rises with unresolved disagreement and decays when the human is met.
+
+    Unresolved, s grows by a share each turn; met, it returns to its initial value,
+
+        ds/dt = u s ln(1 + growth)/turn - (1 - u) (s - s_initial)/relaxation,
+
+    u = min(|disagreement|/tolerance, 1) being how unresolved it is. Pairs of people who return
+    each other's force escalate by 38 % a turn (Shergill et al. 2003). Corrections of a robot
+    arm show longer persistence rather than harder pushes; growth = 0 with a long hold is that.
+
+    Parameters
+    ----------
+    initial : (float, float)
+        Stubbornness in v and in omega at the start and when met, in [0, 1].
+    growth : float
+        Growth a turn of unresolved disagreement, 0.38 from Shergill et al. 2003.
+    turn : float
+        Duration of a turn, s. Inferred.
+    hold : float
+        Time for which stubbornness stays up after the human is met, s. Inferred.
+    relaxation : float
+        Time constant of the decay, s. Inferred.
+    tolerance : float
+        Disagreement, as a share of the upper bound, that counts as wholly unresolved. Inferred.
+    force_max, gain, intention
+        See `DemandingHuman`.
+
+    Raises
+    ------
+    InputError
+        If a parameter is outside the range stated.
+    """
+
+    initial: Pair = (0.3, 0.3)
+    growth: float = 0.38
+    turn: float = 2.0
+    hold: float = 0.0
+    relaxation: float = 3.0
+    tolerance: float = 0.2
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        within = all(0.0 <= share <= 1.0 for share in self.initial)
+        require(self, "initial", within, "both must lie in [0, 1]")
+        for name in ("turn", "relaxation", "tolerance"):
+            require(self, name, getattr(self, name) > 0.0, "must be above 0")
+        for name in ("growth", "hold"):
+            require(self, name, getattr(self, name) >= 0.0, "must not be negative")
+
+    def reset(self, rng: np.random.Generator, situation: Situation) -> None:
+        """See `Human.reset`."""
+        super().reset(rng, situation)
+        self._growth = math.log1p(self.growth) * self.period / self.turn
+        self._decay = -math.expm1(-self.period / self.relaxation)
+        self._initial = np.asarray(self.initial, dtype=float)
+        self._level = self._initial
+        self._since_unresolved = np.full(2, np.inf)
+
+    def stubbornness(self, disagreement: Array) -> Array:
+        """See `DemandingHuman.stubbornness`."""
+        unresolved = np.minimum(np.abs(disagreement) / self.tolerance, 1.0)
+        self._since_unresolved = np.where(
+            unresolved >= 1.0, 0.0, self._since_unresolved + self.period
+        )
+        relaxing = (1.0 - unresolved) * (self._since_unresolved > self.hold)
+        level = self._level * np.exp(self._growth * unresolved)
+        level = level - self._decay * relaxing * (level - self._initial)
+        self._level = np.minimum(level, 1.0)
+        return self._level

@@ -1,0 +1,70 @@
+"""The paper's human: a prescribed force, whatever the base does."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from cowalk.agents.interfaces import Observation, Situation, Truth
+from cowalk.sim.errors import InputError
+from cowalk.sim.motion import Array
+
+
+class OpenLoopHuman:
+    """Exerts a force that is a step function of time (arXiv 2407.17275, section IV).
+
+    Nothing in a prescribed force tells what its author wanted. The truth reported is that of
+    a human of the common definition (`cowalk.agents.humans.demand`) in a disagreement as
+    large as the force can express: s = |F|/F_max, and p_H lies p_ub/gain beyond the executed
+    twist, on the force's side.
+
+    Parameters
+    ----------
+    profile : sequence of (time, fx, fy)
+        From each time (s, rising) on, this force (N, base axes) is exerted; 0 N before.
+    force_max : (float, float)
+        Force forward and sideways that counts as full stubbornness, N.
+    gain : float
+        As in the common definition, 1.
+
+    Raises
+    ------
+    InputError
+        If the times do not rise.
+    """
+
+    closed_loop = False
+
+    def __init__(
+        self,
+        profile: tuple[tuple[float, float, float], ...] = ((0.0, 0.0, 0.0),),
+        force_max: tuple[float, float] = (7.5, 7.5),
+        gain: float = 2.0,
+    ) -> None:
+        table = np.asarray(profile, dtype=float).reshape(-1, 3)
+        if np.any(np.diff(table[:, 0]) <= 0.0):
+            raise InputError(
+                f"profile times {table[:, 0].tolist()}: each must be later than the last"
+            )
+        self._times = table[:, 0]
+        self._forces = np.vstack(([0.0, 0.0], table[:, 1:]))
+        self._force_max = np.asarray(force_max, dtype=float)
+        self._gain = gain
+
+    def reset(self, rng: np.random.Generator, situation: Situation) -> None:
+        """See `Human.reset`."""
+        self._upper = np.asarray(situation.bounds.upper, dtype=float)
+        self._truth = Truth(np.zeros(2), np.zeros(2))
+
+    def act(self, observation: Observation) -> Array:
+        """See `Human.act`."""
+        # Control times are sums of periods: 12 s must count as 12 s in spite of rounding.
+        now = observation["time"][..., 0] + 1e-9
+        force = self._forces[np.searchsorted(self._times, now, side="right")]
+        share = np.minimum(np.abs(force) / self._force_max, 1.0)
+        wish = observation["twist"] + np.sign(force) * self._upper / self._gain
+        self._truth = Truth(wish, share)
+        return np.asarray(force)
+
+    def truth(self) -> Truth:
+        """See `Human.truth`."""
+        return self._truth
