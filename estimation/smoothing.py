@@ -74,7 +74,9 @@ class KalmanSmoother:
     def __post_init__(self) -> None:
         for name in ("process_noise", "measurement_noise"):
             if not getattr(self, name) > 0.0:
-                raise InputError(f"{name} = {getattr(self, name)}: a Kalman filter needs it above 0")
+                raise InputError(
+                    f"{name} = {getattr(self, name)}: a Kalman filter needs it above 0"
+                )
 
     def reset(self, initial: ArrayLike) -> None:
         """See `Smoother.reset`."""

@@ -44,7 +44,9 @@ def stubbornness(
         In [0, 1] for a twist within the bounds.
     """
     insistence = np.minimum(np.abs(np.divide(force, force_max)), 1.0)
-    reach = np.maximum(np.abs(np.subtract(wish_before, upper)), np.abs(np.subtract(wish_before, lower)))
+    reach = np.maximum(
+        np.abs(np.subtract(wish_before, upper)), np.abs(np.subtract(wish_before, lower))
+    )
     deviation = np.abs(np.subtract(wish_before, twist))
     return np.asarray(insistence * np.abs((reach - deviation) / reach))
 
