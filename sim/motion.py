@@ -155,6 +155,7 @@ class Path:
     points: tuple[tuple[float, float], ...]
     _start: Array = field(init=False, repr=False, compare=False)
     _direction: Array = field(init=False, repr=False, compare=False)
+    _angle: Array = field(init=False, repr=False, compare=False)
     _station: Array = field(init=False, repr=False, compare=False)
     _low: Array = field(init=False, repr=False, compare=False)
     _high: Array = field(init=False, repr=False, compare=False)
@@ -162,9 +163,7 @@ class Path:
     def __post_init__(self) -> None:
         points = np.asarray(self.points, dtype=float)
         if points.ndim != 2 or points.shape[-1] != 2 or len(points) < 2:
-            raise ValueError(
-                f"a path needs at least two points (x, y), got shape {points.shape}"
-            )
+            raise ValueError(f"a path needs at least two points (x, y), got shape {points.shape}")
         legs = np.diff(points, axis=0)
         lengths = np.hypot(legs[:, 0], legs[:, 1])
         if not np.all(lengths > 0.0):
@@ -176,6 +175,7 @@ class Path:
         for name, value in (
             ("_start", points[:-1]),
             ("_direction", legs / lengths[:, None]),
+            ("_angle", np.arctan2(legs[:, 1], legs[:, 0])),
             ("_station", np.concatenate(([0.0], np.cumsum(lengths)))),
             ("_low", low),
             ("_high", high),
@@ -206,19 +206,19 @@ class Path:
         along = offset[..., 0] * direction[:, 0] + offset[..., 1] * direction[:, 1]
         across = direction[:, 0] * offset[..., 1] - direction[:, 1] * offset[..., 0]
         if len(direction) == 1:
-            nearest = np.zeros(pose.shape[:-1], dtype=int)
-        else:
-            beyond = along - np.clip(along, self._low, self._high)
-            nearest = np.argmin(beyond**2 + across**2, axis=-1)
+            return np.stack(
+                (along[..., 0], across[..., 0], wrap_angle(pose[..., 2] - self._angle[0])), axis=-1
+            )
+        beyond = along - np.clip(along, self._low, self._high)
+        nearest = np.argmin(beyond**2 + across**2, axis=-1)
         pick = nearest[..., None]
         on_leg = np.take_along_axis(along, pick, axis=-1)[..., 0]
         on_leg = np.clip(on_leg, self._low[nearest], self._high[nearest])
-        heading = np.arctan2(direction[nearest, 1], direction[nearest, 0])
         return np.stack(
             (
                 self._station[nearest] + on_leg,
                 np.take_along_axis(across, pick, axis=-1)[..., 0],
-                wrap_angle(pose[..., 2] - heading),
+                wrap_angle(pose[..., 2] - self._angle[nearest]),
             ),
             axis=-1,
         )
@@ -239,3 +239,29 @@ class Path:
         leg = np.searchsorted(self._station[1:-1], station, side="right")
         along = (station - self._station[leg])[..., None]
         return np.asarray(self._start[leg] + along * self._direction[leg])
+
+    def absolute_pose(self, relative_pose: ArrayLike) -> Array:
+        """Return the world pose of a pose given relative to the path.
+
+        Parameters
+        ----------
+        relative_pose : array_like, shape (..., 3)
+            ``[station, offset, heading]`` as from `relative_pose`.
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            Theta is the path's direction plus the heading, in rad, not wrapped.
+        """
+        relative = np.asarray(relative_pose, dtype=float)
+        leg = np.searchsorted(self._station[1:-1], relative[..., 0], side="right")
+        direction = self._direction[leg]
+        foot = self.point_at(relative[..., 0])
+        return np.stack(
+            (
+                foot[..., 0] - direction[..., 1] * relative[..., 1],
+                foot[..., 1] + direction[..., 0] * relative[..., 1],
+                self._angle[leg] + relative[..., 2],
+            ),
+            axis=-1,
+        )

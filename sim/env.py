@@ -1,0 +1,294 @@
+"""The PettingZoo parallel environment: a human seat and an automation seat share a handle."""
+
+from __future__ import annotations
+
+import inspect
+from typing import Any, ClassVar
+
+import numpy as np
+from gymnasium.spaces import Box, Dict
+from pettingzoo import ParallelEnv
+
+from .errors import SimulationError
+from .motion import Array, Path, TwistBounds, world_to_base
+from .plant import BASE_RADIUS, HUMAN_RADIUS, Plant, PlantState, Rates
+from .plants import PLANTS
+from .reward import Reward
+from .sensor import ForceSensor, SensorParameters
+from .world import SEATS, Clearance, Corridor, World, visible_discs
+
+OBSTACLE_ROWS = 8
+"""Rows of the ``obstacles`` observation: the nearest that a seat perceives."""
+
+STRAIGHT_CORRIDOR = World(path=Path(((0.0, 0.0), (20.0, 0.0))), corridor=Corridor(width=3.0))
+"""The world of `parallel_env` without arguments: nothing in it, nothing to negotiate."""
+
+
+def _box(*shape: int) -> Box:
+    return Box(-np.inf, np.inf, shape, np.float64)
+
+
+class CowalkEnv(ParallelEnv[str, dict[str, Array], Array]):
+    """Human and automation walk one base; each is an agent, both act once a control step.
+
+    The human's action is the intended hand force on the base ``[fx, fy]``, base axes, N; the
+    automation's is the twist to execute ``[v, omega]``, m/s and rad/s. Actions beyond the
+    action space are clipped to it. Both seats perceive the same dict of named boxes: ``twist``
+    (2,), ``force`` (samples, 2), ``pose`` (3,), ``obstacles`` (8, 4) and ``time`` (1,), with
+    the meaning given in `cowalk.agents.interfaces.Observation`. Spaces do not depend on who
+    sits in the seats.
+
+    Rewards are those of `cowalk.sim.reward.Reward`. An episode terminates when the base
+    reaches the end of the path (``goal``) or a body touches something solid (``collision``),
+    and is truncated after ``duration``. Infos hold what a scoring needs and no seat may see.
+
+    Parameters
+    ----------
+    world : World
+    plant : str
+        Registered plant or ``module:Class``.
+    plant_parameters : dict, optional
+        Further arguments of the plant's constructor.
+    rates : Rates
+    sensor : SensorParameters
+    bounds : TwistBounds
+        Bounds of the automation's action.
+    pace : float
+        Usual walking speed, m/s; the rewards refer to it.
+    duration : float
+        Time after which an episode is truncated, s.
+    force_limit : float
+        Bound of the human's action, N. People communicate with up to 30 N
+        (s41598-024-53991-4).
+    render_mode : {None, "rgb_array", "human"}
+
+    Raises
+    ------
+    InputError
+        If the plant is unknown.
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {
+        "name": "cowalk_v0",
+        "render_modes": ["human", "rgb_array"],
+        "is_parallelizable": True,
+        "render_fps": 20,
+    }
+
+    def __init__(
+        self,
+        world: World = STRAIGHT_CORRIDOR,
+        *,
+        plant: str = "bullet",
+        plant_parameters: dict[str, Any] | None = None,
+        rates: Rates = Rates(),
+        sensor: SensorParameters = SensorParameters(),
+        bounds: TwistBounds = TwistBounds(),
+        pace: float = 0.8,
+        duration: float = 30.0,
+        force_limit: float = 30.0,
+        render_mode: str | None = None,
+    ) -> None:
+        self.world, self.rates, self.bounds, self.pace = world, rates, bounds, pace
+        self.steps_per_episode = max(1, round(duration * rates.control))
+        self.render_mode = render_mode
+        constructor = PLANTS.get(plant)
+        arguments = dict(plant_parameters or {})
+        if render_mode == "human" and "gui" in inspect.signature(constructor).parameters:
+            arguments["gui"] = True
+        self._plant: Plant = constructor(rates, **arguments)
+        self._window_needed = render_mode == "human" and "gui" not in arguments
+        self.possible_agents = list(SEATS)
+        self.agents: list[str] = []
+        limit = np.full(2, force_limit)
+        self.action_spaces = {
+            "human": Box(-limit, limit, dtype=np.float64),
+            "automation": Box(np.array(bounds.lower), np.array(bounds.upper), dtype=np.float64),
+        }
+        space = Dict(
+            {
+                "twist": _box(2),
+                "force": _box(rates.samples, 2),
+                "pose": _box(3),
+                "obstacles": _box(OBSTACLE_ROWS, 4),
+                "time": _box(1),
+            }
+        )
+        self.observation_spaces = dict.fromkeys(SEATS, space)
+        self._action_limits = {
+            seat: tuple(zip(box.low.tolist(), box.high.tolist(), strict=True))
+            for seat, box in self.action_spaces.items()
+        }
+        self._clearance = Clearance(world, (BASE_RADIUS, HUMAN_RADIUS))
+        self._reward = Reward(pace, rates.period)
+        self._seen = {seat: visible_discs(world, seat) for seat in SEATS}
+        self._nothing = np.zeros((OBSTACLE_ROWS, 4))
+        self._sensor = ForceSensor(sensor, np.random.default_rng())
+        self._generator = np.random.default_rng()
+        self._step_count = 0
+
+    def observation_space(self, agent: str) -> Dict:
+        """Return the observation space of a seat: the same for both."""
+        return self.observation_spaces[agent]
+
+    def action_space(self, agent: str) -> Box:
+        """Return the action space of a seat."""
+        return self.action_spaces[agent]
+
+    @property
+    def plant_state(self) -> PlantState:
+        """State of the plant after the last step or reset: truth, not for the seats."""
+        return self._state
+
+    def reset(
+        self, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[dict[str, dict[str, Array]], dict[str, dict[str, Any]]]:
+        """Start an episode.
+
+        Parameters
+        ----------
+        seed : int, optional
+            Seed of all randomness of the environment; without one it goes on from the last.
+        options : dict, optional
+            Not used.
+        """
+        if seed is not None:
+            self._generator = np.random.default_rng(seed)
+        plant_rng, sensor_rng = self._generator.spawn(2)
+        self.agents = list(SEATS)
+        self._step_count = 0
+        self._sensor.reset(sensor_rng)
+        self._state = self._plant.reset(self.world, plant_rng)
+        self._measured = self._sensor.measure(self._state.force_on_base)
+        clearance, _ = self._clearance(self._state.pose, self._state.human_pose)
+        self._info = {"clearance": clearance, "goal": False, "collision": False}
+        return self._observations(), {seat: dict(self._info) for seat in SEATS}
+
+    def step(
+        self, actions: dict[str, Array]
+    ) -> tuple[
+        dict[str, dict[str, Array]],
+        dict[str, float],
+        dict[str, bool],
+        dict[str, bool],
+        dict[str, dict[str, Any]],
+    ]:
+        """Advance one control period.
+
+        Parameters
+        ----------
+        actions : dict of ndarray, shape (2,)
+            ``"human"``: intended hand force, N; ``"automation"``: twist, m/s and rad/s.
+
+        Raises
+        ------
+        SimulationError
+            If an action is not finite, or the plant cannot go on.
+        """
+        force = self._bounded("human", actions["human"])
+        twist = self._bounded("automation", actions["automation"])
+        state = self._state = self._plant.step(twist, force)
+        self._step_count += 1
+        self._measured = self._sensor.measure(state.force_on_base)
+        clearance, solid_clearance = self._clearance(state.pose, state.human_pose)
+        observations = self._observations()
+        station = float(self._relative[0])
+        goal = station >= self.world.path.length
+        collision = solid_clearance < 0.0
+        self._info = {"clearance": clearance, "goal": goal, "collision": collision}
+        rewards = self._reward(state, self._relative, clearance, collision, goal)
+        over = goal or collision
+        late = not over and self._step_count >= self.steps_per_episode
+        if over or late:
+            self.agents = []
+        if self._window_needed:
+            self.render()
+        return (
+            observations,
+            rewards,
+            dict.fromkeys(SEATS, over),
+            dict.fromkeys(SEATS, late),
+            {seat: dict(self._info) for seat in SEATS},
+        )
+
+    @property
+    def measured_force(self) -> Array:
+        """What the sensor read in the last control step, N, base axes, shape (samples, 2)."""
+        return self._measured
+
+    def render(self) -> np.ndarray | None:
+        """Return a picture, uint8, shape (480, 640, 3), or show it in mode ``"human"``."""
+        if self.render_mode == "rgb_array":
+            return self._plant.render(640, 480)
+        if self._window_needed:
+            from .window import show
+
+            show(self._plant.render(640, 480))
+        return None
+
+    def close(self) -> None:
+        """Free the plant. May be called twice."""
+        self._plant.close()
+
+    def _bounded(self, seat: str, action: Array) -> tuple[float, float]:
+        if len(action) != 2:
+            raise SimulationError(
+                f"the {seat}'s action is {action!r}: it must be 2 numbers, without batch axes"
+            )
+        first, second = float(action[0]), float(action[1])
+        # The sum is NaN or infinite exactly if a part is.
+        if not -1e300 < first + second < 1e300:
+            what = "force" if seat == "human" else "twist"
+            raise SimulationError(
+                f"the {seat}'s {what} is [{first}, {second}] at "
+                f"t = {self._step_count * self.rates.period:g} s: every action must be finite"
+            )
+        (low_1, high_1), (low_2, high_2) = self._action_limits[seat]
+        return min(max(first, low_1), high_1), min(max(second, low_2), high_2)
+
+    def _observations(self) -> dict[str, dict[str, Array]]:
+        state = self._state
+        self._relative = self.world.path.relative_pose(state.pose)
+        shared = {
+            "twist": np.array(state.twist),
+            "pose": self._relative,
+            "time": np.array([self._step_count / self.rates.control]),
+        }
+        return {
+            "human": {
+                **shared,
+                "force": state.force_on_base,
+                "obstacles": self._perceived("human"),
+            },
+            "automation": {
+                **shared,
+                "force": self._measured,
+                "obstacles": self._perceived("automation"),
+            },
+        }
+
+    def _perceived(self, seat: str) -> Array:
+        discs = self._seen[seat]
+        if not len(discs):
+            return self._nothing.copy()
+        rows = np.zeros((OBSTACLE_ROWS, 4))
+        centres = world_to_base(np.array(self._state.pose), discs[:, :2])
+        nearest = np.argsort(np.hypot(centres[:, 0], centres[:, 1]) - discs[:, 2], kind="stable")
+        nearest = nearest[:OBSTACLE_ROWS]
+        count = len(nearest)
+        rows[:count, 0] = 1.0
+        rows[:count, 1:3] = centres[nearest]
+        rows[:count, 3] = discs[nearest, 2]
+        return rows
+
+
+def parallel_env(world: World = STRAIGHT_CORRIDOR, **arguments: Any) -> CowalkEnv:
+    """Return a `CowalkEnv`; without arguments, a straight corridor, sensor noise off.
+
+    Parameters
+    ----------
+    world : World
+    **arguments
+        See `CowalkEnv`.
+    """
+    return CowalkEnv(world, **arguments)
