@@ -1,0 +1,240 @@
+"""From a scenario to a finished run: build, step, record, judge."""
+
+from __future__ import annotations
+
+import math
+import platform
+import time
+from collections.abc import Callable
+from dataclasses import asdict
+from importlib.metadata import version
+from typing import Any
+
+import numpy as np
+
+from cowalk.agents.interfaces import Automation, Belief, Human, Situation, Truth
+from cowalk.agents.registry import AUTOMATIONS, HUMANS
+from cowalk.estimation.smoothing import SMOOTHERS
+from cowalk.sim.env import CowalkEnv
+from cowalk.sim.errors import InputError, SimulationError
+from cowalk.sim.motion import Array
+
+from .building import build
+from .expectations import judge
+from .loading import load
+from .metrics import metrics
+from .results import RunResult, Trace, json_ready
+from .schema import Scenario
+
+_VERSIONED = ("numpy", "scipy", "pybullet", "pettingzoo", "filterpy")
+
+Progress = Callable[[int, int], None]
+"""Called with the control steps done and their total."""
+
+
+def make_env(scenario: str | Scenario, render_mode: str | None = None) -> CowalkEnv:
+    """Return the environment of a scenario: its world, plant, rates, sensor and bounds.
+
+    Parameters
+    ----------
+    scenario : str or Scenario
+        Name, file or loaded scenario.
+    render_mode : {None, "rgb_array", "human"}
+
+    Raises
+    ------
+    InputError
+        If the scenario or its plant is not right.
+    """
+    chosen = scenario if isinstance(scenario, Scenario) else load(scenario)
+    return CowalkEnv(
+        chosen.world,
+        plant=chosen.plant.name,
+        plant_parameters=chosen.plant.parameters,
+        rates=chosen.rates,
+        sensor=chosen.sensor,
+        bounds=chosen.bounds,
+        pace=chosen.pace,
+        duration=chosen.duration,
+        render_mode=render_mode,
+    )
+
+
+def build_agents(scenario: Scenario) -> tuple[Human, Automation]:
+    """Return the human and the automation of a scenario, not yet reset.
+
+    Raises
+    ------
+    InputError
+        If a name or a parameter is not right.
+    """
+    human = build(HUMANS, scenario.human, "human", intention=scenario.human.intention)
+    smoother = build(SMOOTHERS, scenario.automation.smoother, "automation.smoother")
+    automation = build(
+        AUTOMATIONS,
+        scenario.automation,
+        "automation",
+        negotiation=scenario.automation.negotiation,
+        smoother=smoother,
+    )
+    return human, automation
+
+
+def run(scenario: Scenario, progress: Progress | None = None) -> RunResult:
+    """Run a scenario to its end.
+
+    An agent or a body that goes astray ends the run cleanly: the result then carries
+    ``error`` and the trace so far.
+
+    Parameters
+    ----------
+    scenario : Scenario
+    progress : callable, optional
+
+    Raises
+    ------
+    InputError
+        If the scenario cannot be built.
+    """
+    human, automation = build_agents(scenario)
+    env = make_env(scenario)
+    trace = Trace(env.steps_per_episode)
+    started = time.perf_counter()
+    try:
+        end, error = _episode(scenario, env, human, automation, trace, progress)
+    finally:
+        env.close()
+    wall_time = time.perf_counter() - started
+    return _result(scenario, trace, end, error, wall_time)
+
+
+def _episode(
+    scenario: Scenario,
+    env: CowalkEnv,
+    human: Human,
+    automation: Automation,
+    trace: Trace,
+    progress: Progress | None,
+) -> tuple[str, str | None]:
+    """Step until the end; return how it ended, and the error if that is why."""
+    env_seed, human_seed, automation_seed = np.random.SeedSequence(scenario.seed).spawn(3)
+    situation = Situation(
+        scenario.world.path, scenario.pace, scenario.bounds, scenario.rates.period
+    )
+    row = _Row(scenario)
+    total = env.steps_per_episode
+    report_every = scenario.rates.control
+    infos: dict[str, dict[str, Any]] = {}
+    actor = "plant"
+    try:
+        observations, infos = env.reset(seed=int(env_seed.generate_state(1)[0]))
+        actor = "human"
+        human.reset(np.random.default_rng(human_seed), situation)
+        actor = "automation"
+        automation.reset(np.random.default_rng(automation_seed), situation)
+        while env.agents:
+            actor = "human"
+            force = human.act(observations["human"])
+            truth = human.truth()
+            actor = "automation"
+            twist = automation.act(observations["automation"])
+            belief = automation.belief()
+            actor = "plant"
+            observations, _, _, _, infos = env.step({"human": force, "automation": twist})
+            trace.append(row(env, force, twist, truth, belief, infos["human"]["clearance"]))
+            if progress is not None and len(trace) % report_every == 0:
+                progress(len(trace), total)
+    except InputError:
+        raise
+    except SimulationError as failure:
+        return "aborted", f"{scenario.name}: {failure}"
+    except KeyboardInterrupt:
+        return "interrupted", f"{scenario.name}: interrupted by the user"
+    except Exception as failure:
+        names = {"human": scenario.human.name, "automation": scenario.automation.name}
+        name = names.get(actor, scenario.plant.name)
+        when = f"t = {len(trace) * scenario.rates.period:g} s"
+        return "aborted", f"{actor} {name!r} failed at {when}: {type(failure).__name__}: {failure}"
+    last = infos["human"]
+    return "goal" if last["goal"] else "collision" if last["collision"] else "time", None
+
+
+class _Row:
+    """Assembles trace rows; what only changes with a negotiation is unpacked once for each."""
+
+    def __init__(self, scenario: Scenario) -> None:
+        self._control = scenario.rates.control
+        self._count = 0
+        self._belief: Belief | None = None
+        self._believed: tuple[float, ...] = ()
+
+    def __call__(
+        self,
+        env: CowalkEnv,
+        force: Array,
+        twist: Array,
+        truth: Truth,
+        belief: Belief,
+        clearance: float,
+    ) -> tuple[float, ...]:
+        self._count += 1
+        if belief is not self._belief:
+            self._belief = belief
+            self._believed = (
+                *belief.stubbornness.tolist(),
+                *belief.stubbornness_smoothed.tolist(),
+                *belief.human_wish.tolist(),
+                *belief.wish.tolist(),
+                float(belief.interaction),
+                float(belief.interaction_smoothed),
+                float(belief.utility_loss),
+                float(belief.target_utility),
+                float(belief.negotiation),
+            )
+        state = env.plant_state
+        measured = env.measured_force
+        fx, fy = (measured.sum(axis=0) / len(measured)).tolist()
+        return (
+            self._count / self._control,
+            *state.pose,
+            *state.twist,
+            *twist,
+            fx,
+            fy,
+            *force,
+            *state.human_pose,
+            *truth.stubbornness.tolist(),
+            *truth.wish.tolist(),
+            *self._believed,
+            clearance,
+        )
+
+
+def _result(
+    scenario: Scenario, trace: Trace, end: str, error: str | None, wall_time: float
+) -> RunResult:
+    """Score and judge what was recorded."""
+    period = scenario.rates.period
+    columns = trace.columns()
+    verdicts = judge(scenario.expect, columns, period) if len(trace) else []
+    simulated = len(trace) * period
+    summary = {
+        "scenario": scenario.name,
+        "plant": scenario.plant.name,
+        "human": scenario.human.name,
+        "automation": scenario.automation.name,
+        "smoother": scenario.automation.smoother.name,
+        "seed": scenario.seed,
+        "end": end,
+        "error": error,
+        "simulated_time_s": simulated,
+        "wall_time_s": wall_time,
+        "real_time_factor": simulated / wall_time if wall_time > 0.0 else math.inf,
+        "metrics": metrics(columns, period) if len(trace) else {},
+        "expectations": [asdict(verdict) for verdict in verdicts],
+        "versions": {
+            "python": platform.python_version(),
+            **{name: version(name) for name in ("cowalk", *_VERSIONED)},
+        },
+    }
+    return RunResult(scenario, trace, json_ready(summary), verdicts, error)
