@@ -1,0 +1,39 @@
+# Everything runs in an environment that is made here on first use; only Python and make are needed.
+.DEFAULT_GOAL := help
+BIN := .venv/bin
+# The first interpreter that the dependencies support (3.11 has ready pybullet wheels).
+PYTHON ?= $(shell for python in python3.11 python3.12 python3 python; do \
+	"$$python" -c 'import sys; sys.exit(not (3, 11) <= sys.version_info < (3, 13))' 2>/dev/null \
+	&& echo "$$python" && break; done)
+
+.PHONY: help run test lint types bench clean
+
+help:  ## Show the targets
+	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 8
+
+.venv/ready: pyproject.toml
+	@test -n "$(PYTHON)" || { echo "cowalk needs Python 3.11 or 3.12; set PYTHON=..." >&2; exit 2; }
+	$(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	@touch $@
+
+run: .venv/ready  ## Run the closed-loop scenario and draw its picture
+	$(BIN)/cowalk run puddle --out runs/puddle
+
+test: .venv/ready  ## Run all tests
+	$(BIN)/python -m pytest
+
+lint: .venv/ready  ## Check style and formatting
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+types: .venv/ready  ## Check the types of what is shipped
+	rm -rf build/types
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --target build/types .
+	MYPYPATH=build/types $(BIN)/mypy
+
+bench: .venv/ready  ## Measure speed, as ratios within one run
+	$(BIN)/python -m benchmarks
+
+clean:  ## Remove everything that was made here
+	rm -rf .venv build dist runs *.egg-info .mypy_cache .pytest_cache .ruff_cache .hypothesis
