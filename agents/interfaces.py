@@ -7,38 +7,15 @@ is accepted. Its constructor's arguments are its parameters in a scenario file.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Protocol, TypedDict
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from cowalk.sim.motion import Array, Path
+from cowalk.sim.observation import Observation
 
-
-class Observation(TypedDict):
-    """What a seat perceives after a control step (leading batch axes come first).
-
-    Keys
-    ----
-    twist : ndarray, shape (..., 2)
-        Executed twist of the base, m/s and rad/s.
-    force : ndarray, shape (..., samples, 2)
-        Force of the human on the base at every sensor sample of the last control step, base
-        axes, N. The automation gets the sensor's reading, the human feels the force itself.
-    pose : ndarray, shape (..., 3)
-        Base pose relative to the path: station m, lateral offset m (left positive), heading rad.
-    obstacles : ndarray, shape (..., rows, 4)
-        Obstacles the seat perceives in base axes, nearest first: ``[present, x, y, radius]``
-        with present 1 or 0, and m; rows that are not in use are zero.
-    time : ndarray, shape (..., 1)
-        Time since reset, s.
-    """
-
-    twist: Array
-    force: Array
-    pose: Array
-    obstacles: Array
-    time: Array
+__all__ = ["Automation", "Belief", "Bounds", "Human", "Observation", "Situation", "Truth"]
 
 
 class Bounds(Protocol):

@@ -48,13 +48,12 @@ def lag(estimate: ArrayLike, truth: ArrayLike, period: float, longest: float = 1
     float
         Delay in s, positive if the estimate comes later; NaN if either signal is constant.
     """
-    estimate = np.asarray(estimate, dtype=float)
-    truth = np.asarray(truth, dtype=float)
-    known = np.isfinite(estimate) & np.isfinite(truth)
-    estimate, truth = estimate[known], truth[known]
-    if estimate.size < 2 or np.ptp(estimate) < 1e-12 or np.ptp(truth) < 1e-12:
+    a, b = np.asarray(estimate, dtype=float), np.asarray(truth, dtype=float)
+    known = np.isfinite(a) & np.isfinite(b)
+    a, b = a[known], b[known]
+    if a.size < 2 or np.ptp(a) < 1e-12 or np.ptp(b) < 1e-12:
         return float("nan")
-    a, b = estimate - estimate.mean(), truth - truth.mean()
+    a, b = a - a.mean(), b - b.mean()
     delays = signal.correlation_lags(a.size, b.size)
     near = np.abs(delays) * period <= longest
     correlation = signal.correlate(a, b, method="fft")[near]
@@ -62,5 +61,5 @@ def lag(estimate: ArrayLike, truth: ArrayLike, period: float, longest: float = 1
 
 
 def _errors(estimate: ArrayLike, truth: ArrayLike) -> Array:
-    error = np.subtract(estimate, truth, dtype=float)
+    error = np.asarray(estimate, dtype=float) - np.asarray(truth, dtype=float)
     return error[np.isfinite(error)]

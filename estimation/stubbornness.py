@@ -64,7 +64,7 @@ def interaction_value(stubbornness_norm: ArrayLike, utility_loss_before: ArrayLi
     utility_loss_before : array_like, shape (...)
         Utility loss of the step before, in [0, 1].
     """
-    return np.asarray(-2.0 + 3.0 * np.asarray(stubbornness_norm) + utility_loss_before)
+    return np.add(-2.0 + 3.0 * np.asarray(stubbornness_norm), utility_loss_before)
 
 
 def stubbornness_norm(values: ArrayLike) -> Array:

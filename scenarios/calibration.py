@@ -70,7 +70,7 @@ def simulate(omega_bound: Array, horizon: Array, turn_weight: Array) -> dict[str
     automation.reset(generator, situation)
     human.reset(generator, situation)
     pose, twist = np.zeros((lanes, 3)), np.zeros((lanes, 2))
-    time = np.arange(round(scenario.duration / base.period)) * base.period
+    time = np.arange(round(scenario.duration / base.period), dtype=float) * base.period
     record: dict[str, list[Array]] = {
         key: [] for key in ("stubbornness", "target_utility", "omega", "wish", "y")
     }

@@ -10,15 +10,13 @@ from gymnasium.spaces import Box, Dict
 from pettingzoo import ParallelEnv
 
 from .errors import SimulationError
-from .motion import Array, Path, TwistBounds, world_to_base
+from .motion import Array, Path, TwistBounds
+from .observation import OBSTACLE_ROWS, Eyes, Observation
 from .plant import BASE_RADIUS, HUMAN_RADIUS, Plant, PlantState, Rates
 from .plants import PLANTS
 from .reward import Reward
 from .sensor import ForceSensor, SensorParameters
-from .world import SEATS, Clearance, Corridor, World, visible_discs
-
-OBSTACLE_ROWS = 8
-"""Rows of the ``obstacles`` observation: the nearest that a seat perceives."""
+from .world import SEATS, Clearance, Corridor, World
 
 STRAIGHT_CORRIDOR = World(path=Path(((0.0, 0.0), (20.0, 0.0))), corridor=Corridor(width=3.0))
 """The world of `parallel_env` without arguments: nothing in it, nothing to negotiate."""
@@ -28,14 +26,14 @@ def _box(*shape: int) -> Box:
     return Box(-np.inf, np.inf, shape, np.float64)
 
 
-class CowalkEnv(ParallelEnv[str, dict[str, Array], Array]):
+class CowalkEnv(ParallelEnv[str, Observation, Array]):
     """Human and automation walk one base; each is an agent, both act once a control step.
 
     The human's action is the intended hand force on the base ``[fx, fy]``, base axes, N; the
     automation's is the twist to execute ``[v, omega]``, m/s and rad/s. Actions beyond the
     action space are clipped to it. Both seats perceive the same dict of named boxes: ``twist``
     (2,), ``force`` (samples, 2), ``pose`` (3,), ``obstacles`` (8, 4) and ``time`` (1,), with
-    the meaning given in `cowalk.agents.interfaces.Observation`. Spaces do not depend on who
+    the meaning given in `cowalk.sim.observation.Observation`. Spaces do not depend on who
     sits in the seats.
 
     Rewards are those of `cowalk.sim.reward.Reward`. An episode terminates when the base
@@ -121,8 +119,7 @@ class CowalkEnv(ParallelEnv[str, dict[str, Array], Array]):
         }
         self._clearance = Clearance(world, (BASE_RADIUS, HUMAN_RADIUS))
         self._reward = Reward(pace, rates.period)
-        self._seen = {seat: visible_discs(world, seat) for seat in SEATS}
-        self._nothing = np.zeros((OBSTACLE_ROWS, 4))
+        self._eyes = {seat: Eyes(world, seat) for seat in SEATS}
         self._sensor = ForceSensor(sensor, np.random.default_rng())
         self._generator = np.random.default_rng()
         self._step_count = 0
@@ -142,7 +139,7 @@ class CowalkEnv(ParallelEnv[str, dict[str, Array], Array]):
 
     def reset(
         self, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[dict[str, dict[str, Array]], dict[str, dict[str, Any]]]:
+    ) -> tuple[dict[str, Observation], dict[str, dict[str, Any]]]:
         """Start an episode.
 
         Parameters
@@ -167,7 +164,7 @@ class CowalkEnv(ParallelEnv[str, dict[str, Array], Array]):
     def step(
         self, actions: dict[str, Array]
     ) -> tuple[
-        dict[str, dict[str, Array]],
+        dict[str, Observation],
         dict[str, float],
         dict[str, bool],
         dict[str, bool],
@@ -246,40 +243,21 @@ class CowalkEnv(ParallelEnv[str, dict[str, Array], Array]):
         (low_1, high_1), (low_2, high_2) = self._action_limits[seat]
         return min(max(first, low_1), high_1), min(max(second, low_2), high_2)
 
-    def _observations(self) -> dict[str, dict[str, Array]]:
+    def _observations(self) -> dict[str, Observation]:
         state = self._state
         self._relative = self.world.path.relative_pose(state.pose)
-        shared = {
-            "twist": np.array(state.twist),
-            "pose": self._relative,
-            "time": np.array([self._step_count / self.rates.control]),
-        }
+        twist, time = np.array(state.twist), np.array([self._step_count / self.rates.control])
+        force = {"human": state.force_on_base, "automation": self._measured}
         return {
-            "human": {
-                **shared,
-                "force": state.force_on_base,
-                "obstacles": self._perceived("human"),
-            },
-            "automation": {
-                **shared,
-                "force": self._measured,
-                "obstacles": self._perceived("automation"),
-            },
+            seat: Observation(
+                twist=twist.copy(),
+                force=force[seat].copy(),
+                pose=self._relative.copy(),
+                obstacles=self._eyes[seat].look(state.pose),
+                time=time.copy(),
+            )
+            for seat in SEATS
         }
-
-    def _perceived(self, seat: str) -> Array:
-        discs = self._seen[seat]
-        if not len(discs):
-            return self._nothing.copy()
-        rows = np.zeros((OBSTACLE_ROWS, 4))
-        centres = world_to_base(np.array(self._state.pose), discs[:, :2])
-        nearest = np.argsort(np.hypot(centres[:, 0], centres[:, 1]) - discs[:, 2], kind="stable")
-        nearest = nearest[:OBSTACLE_ROWS]
-        count = len(nearest)
-        rows[:count, 0] = 1.0
-        rows[:count, 1:3] = centres[nearest]
-        rows[:count, 3] = discs[nearest, 2]
-        return rows
 
 
 def parallel_env(world: World = STRAIGHT_CORRIDOR, **arguments: Any) -> CowalkEnv:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
-import numpy as np
-
-from .motion import Array, Path
+from .motion import Path
 
 SEATS = ("human", "automation")
 """The two seats of the environment, in the order in which they are stepped."""
@@ -80,7 +79,7 @@ class Clearance:
 
     def __init__(self, world: World, radii: tuple[float, ...]) -> None:
         self._radii = radii
-        self._half_width = world.corridor.width / 2.0 if world.corridor else np.inf
+        self._half_width = world.corridor.width / 2.0 if world.corridor else math.inf
         self._discs = tuple((o.x, o.y, o.radius, o.solid) for o in world.obstacles)
 
     def __call__(self, *positions: tuple[float, ...]) -> tuple[float, float]:
@@ -96,7 +95,7 @@ class Clearance:
         (float, float)
             Negative inside an obstacle, infinite where there is none.
         """
-        nearest = nearest_solid = float("inf")
+        nearest = nearest_solid = math.inf
         for radius, position in zip(self._radii, positions, strict=True):
             x, y = position[0], position[1]
             nearest_solid = min(nearest_solid, self._half_width - abs(y) - radius)
@@ -107,14 +106,3 @@ class Clearance:
                 else:
                     nearest = min(nearest, gap)
         return min(nearest, nearest_solid), nearest_solid
-
-
-def visible_discs(world: World, seat: str) -> Array:
-    """Return the obstacles that a seat perceives as rows ``[x, y, radius]`` in m, world axes.
-
-    Returns
-    -------
-    ndarray, shape (n, 3)
-    """
-    rows = [(o.x, o.y, o.radius) for o in world.obstacles if seat in o.seen_by]
-    return np.array(rows, dtype=float).reshape(-1, 3)
