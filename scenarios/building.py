@@ -43,24 +43,24 @@ def build(registry: Registry[T], component: Component, section: str, **shared: A
     InputError
         If the name or a parameter is not right; the first fault, in one line.
     """
-    part, problem = attempt(registry, component, section, **shared)
-    if problem is not None or part is None:
-        raise InputError(problem.message if problem else f"{section}: nothing was built")
-    return part
+    found = attempt(registry, component, section, **shared)
+    if isinstance(found, Problem):
+        raise InputError(found.message)
+    return found
 
 
 def attempt(
     registry: Registry[T], component: Component, section: str, **shared: Any
-) -> tuple[T | None, Problem | None]:
+) -> T | Problem:
     """Return the object that a component names, or the first problem (see `build`)."""
     constructor, parameters, problems = _prepare(registry, component, section, shared)
     if problems or constructor is None:
-        return None, problems[0]
+        return problems[0]
     accepted = {name: value for name, value in shared.items() if name in _accepted(constructor)}
     try:
-        return constructor(**parameters, **accepted), None
+        return constructor(**parameters, **accepted)
     except Exception as error:  # a user's class may raise anything
-        return None, _constructor_problem(error, component, section)
+        return _constructor_problem(error, component, section)
 
 
 def check_parameters(

@@ -11,36 +11,15 @@ from pathlib import Path
 from typing import Any
 
 import yaml
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel
 
-from cowalk.agents.registry import AUTOMATIONS, HUMANS
-from cowalk.estimation.smoothing import SMOOTHERS
 from cowalk.sim.errors import InputError
-from cowalk.sim.plants import PLANTS
-from cowalk.sim.registry import Registry, did_you_mean
+from cowalk.sim.registry import did_you_mean
 
-from .building import attempt, check_parameters
-from .documents import Document, KeyPath, Problem, dotted, parse
-from .overrides import component_sections, expand_names, override
-from .results import UNITS
-from .schema import SUFFIX, Component, Scenario
-from .wording import validate
-
-REGISTRIES: dict[str, Registry[Any]] = {
-    "plant": PLANTS,
-    "human": HUMANS,
-    "automation": AUTOMATIONS,
-    "automation.smoother": SMOOTHERS,
-}
-"""Where the components of each section are looked up."""
-
-SHARED = {
-    "plant": ("rates",),
-    "human": ("intention",),
-    "automation": ("negotiation", "smoother"),
-    "automation.smoother": (),
-}
-"""Constructor arguments that come from elsewhere in the scenario."""
+from .checking import check
+from .documents import Document, KeyPath, dotted, parse
+from .overrides import expand_names, override
+from .schema import SUFFIX, Scenario
 
 
 @dataclass(frozen=True)
@@ -117,7 +96,7 @@ def load(source: str | Path, overrides: Sequence[str] = ()) -> Scenario:
     if isinstance(document.data, dict) and not document.problems:
         for assignment in overrides:
             overridden[override(document.data, assignment)] = assignment
-    scenario, problems = _check(document)
+    scenario, problems = check(document)
     if problems:
         first = min(problems, key=lambda problem: document.line(problem.path))
         where = next(
@@ -147,7 +126,7 @@ def faults(file: str | Path) -> list[Fault]:
     expand_names(document.data)
     found = [
         Fault(Path(file), document.line(problem.path), dotted(problem.path), problem.message)
-        for problem in _check(document)[1]
+        for problem in check(document)[1]
     ]
     return sorted(found, key=lambda fault: fault.line)
 
@@ -161,72 +140,24 @@ def _read(file: Path) -> Document:
         raise InputError(f"{file}: this is not text in UTF-8; is it a YAML file?") from error
 
 
-def _check(document: Document) -> tuple[Scenario | None, list[Problem]]:
-    """Return the scenario of a document, or all of its problems."""
-    if document.data is None and document.problems:
-        return None, document.problems
-    if not isinstance(document.data, dict):
-        keys = ", ".join(name for name, item in Scenario.model_fields.items() if item.is_required())
-        return None, [Problem((), f"this holds no scenario; it needs at least the keys {keys}")]
-    scenario, problems = validate(Scenario, document.data)
-    known = {problem.path for problem in problems}
-    parts = (*_components(document.data, scenario), *_formulas(document.data, scenario))
-    problems += [problem for problem in parts if problem.path not in known]
-    problems += document.problems
-    if scenario is not None:
-        try:
-            scenario.automation.negotiation.steps(scenario.rates.period)
-        except InputError as error:
-            problems.append(Problem(("automation", "negotiation", "period"), str(error)))
-    return scenario, problems
-
-
-def _components(data: dict[str, Any], scenario: Scenario | None) -> list[Problem]:
-    """Return the problems of all named parts; they are built if everything around is right."""
-    problems: list[Problem] = []
-    for _, path, value in component_sections(data):
-        section = ".".join(path)
-        try:
-            component = Component(name=value["name"], parameters=value.get("parameters") or {})
-        except (ValidationError, TypeError, KeyError):
-            continue  # reported as a fault of the schema already
-        problems += check_parameters(REGISTRIES[section], component, section, SHARED[section])
-    if not problems and scenario is not None:
-        problems += _agents(scenario)
-    return problems
-
-
-def _agents(scenario: Scenario) -> list[Problem]:
-    """Return why the agents cannot be built: a value that only its constructor can judge."""
-    seat = scenario.automation
-    _, human = attempt(HUMANS, scenario.human, "human", intention=scenario.human.intention)
-    smoother, smoothing = attempt(SMOOTHERS, seat.smoother, "automation.smoother")
-    _, automation = attempt(
-        AUTOMATIONS, seat, "automation", negotiation=seat.negotiation, smoother=smoother
-    )
-    return [problem for problem in (human, smoothing, automation) if problem is not None]
-
-
-def _formulas(data: dict[str, Any], scenario: Scenario | None) -> list[Problem]:
-    """Return the problems of all expectations."""
-    expect = data.get("expect")
-    if not isinstance(expect, dict) or not expect:
-        return []
-    from .expectations import syntax_error
-
-    period = scenario.rates.period if scenario else None
-    found: list[Problem] = []
-    for name, formula in expect.items():
-        if isinstance(formula, str) and (reason := syntax_error(formula, UNITS, period)):
-            found.append(Problem(("expect", name), f"expect.{name} = {formula!r}: {reason}"))
-    return found
-
-
 def to_yaml(scenario: Scenario) -> str:
     """Return a scenario as YAML that loads as an equal one, every default written out."""
-    return yaml.safe_dump(
-        _plain(scenario), sort_keys=False, allow_unicode=True, width=100, default_flow_style=None
+    text: str = yaml.dump(
+        _plain(scenario), Dumper=_Dumper, sort_keys=False, allow_unicode=True, width=100
     )
+    return text
+
+
+class _Dumper(yaml.SafeDumper):
+    """Writes a list of plain values on one line, everything else on lines of its own."""
+
+
+def _represent_list(dumper: yaml.SafeDumper, items: list[Any]) -> yaml.Node:
+    flat = not any(isinstance(item, list | dict) for item in items)
+    return dumper.represent_sequence("tag:yaml.org,2002:seq", items, flow_style=flat)
+
+
+_Dumper.add_representer(list, _represent_list)
 
 
 def _plain(value: Any) -> Any:

@@ -1,0 +1,24 @@
+"""What happens and what must hold: scenario files, runs, expectations and their figures."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .loading import load
+    from .runner import make_env, run
+
+__all__ = ["load", "make_env", "run"]
+
+
+def __getattr__(name: str) -> Any:
+    # The command line answers --help at once, because nothing is imported before it is needed.
+    if name == "load":
+        from .loading import load
+
+        return load
+    if name in __all__:
+        from . import runner
+
+        return getattr(runner, name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -1,0 +1,98 @@
+"""Everything that can be wrong with a scenario, found in one go."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pydantic import ValidationError
+
+from cowalk.agents.registry import AUTOMATIONS, HUMANS
+from cowalk.estimation.smoothing import SMOOTHERS
+from cowalk.sim.errors import InputError
+from cowalk.sim.plants import PLANTS
+from cowalk.sim.registry import Registry
+
+from .building import attempt, check_parameters
+from .documents import Document, Problem
+from .overrides import component_sections
+from .results import UNITS
+from .schema import Component, Scenario
+from .wording import validate
+
+REGISTRIES: dict[str, Registry[Any]] = {
+    "plant": PLANTS,
+    "human": HUMANS,
+    "automation": AUTOMATIONS,
+    "automation.smoother": SMOOTHERS,
+}
+"""Where the components of each section are looked up."""
+
+SHARED = {
+    "plant": ("rates",),
+    "human": ("intention",),
+    "automation": ("negotiation", "smoother"),
+    "automation.smoother": (),
+}
+"""Constructor arguments that come from elsewhere in the scenario."""
+
+
+def check(document: Document) -> tuple[Scenario | None, list[Problem]]:
+    """Return the scenario of a document, or all of its problems."""
+    if document.data is None and document.problems:
+        return None, document.problems
+    if not isinstance(document.data, dict):
+        keys = ", ".join(name for name, item in Scenario.model_fields.items() if item.is_required())
+        return None, [Problem((), f"this holds no scenario; it needs at least the keys {keys}")]
+    scenario, problems = validate(Scenario, document.data)
+    known = {problem.path for problem in problems}
+    parts = (*_components(document.data, scenario), *_formulas(document.data, scenario))
+    problems += [problem for problem in parts if problem.path not in known]
+    problems += document.problems
+    if scenario is not None:
+        try:
+            scenario.automation.negotiation.steps(scenario.rates.period)
+        except InputError as error:
+            problems.append(Problem(("automation", "negotiation", "period"), str(error)))
+    return scenario, problems
+
+
+def _components(data: dict[str, Any], scenario: Scenario | None) -> list[Problem]:
+    """Return the problems of all named parts; they are built if everything around is right."""
+    problems: list[Problem] = []
+    for _, path, value in component_sections(data):
+        section = ".".join(path)
+        try:
+            component = Component(name=value["name"], parameters=value.get("parameters") or {})
+        except (ValidationError, TypeError, KeyError):
+            continue  # reported as a fault of the schema already
+        problems += check_parameters(REGISTRIES[section], component, section, SHARED[section])
+    if not problems and scenario is not None:
+        problems += _agents(scenario)
+    return problems
+
+
+def _agents(scenario: Scenario) -> list[Problem]:
+    """Return why the agents cannot be built: a value that only its constructor can judge."""
+    seat = scenario.automation
+    smoother = attempt(SMOOTHERS, seat.smoother, "automation.smoother")
+    built = (
+        attempt(HUMANS, scenario.human, "human", intention=scenario.human.intention),
+        smoother,
+        attempt(AUTOMATIONS, seat, "automation", negotiation=seat.negotiation, smoother=smoother),
+    )
+    return [part for part in built if isinstance(part, Problem)]
+
+
+def _formulas(data: dict[str, Any], scenario: Scenario | None) -> list[Problem]:
+    """Return the problems of all expectations."""
+    expect = data.get("expect")
+    if not isinstance(expect, dict) or not expect:
+        return []
+    from .expectations import syntax_error
+
+    period = scenario.rates.period if scenario else None
+    found: list[Problem] = []
+    for name, formula in expect.items():
+        if isinstance(formula, str) and (reason := syntax_error(formula, UNITS, period)):
+            found.append(Problem(("expect", name), f"expect.{name} = {formula!r}: {reason}"))
+    return found
