@@ -55,12 +55,12 @@ class BulletPlant:
     drive : DriveParameters or mapping, optional
     walker : WalkerParameters or mapping, optional
     gui : bool
-        Show the run in a window, at no more than real time.
+        Show the run in a window, at no more than real time; `reset` opens it.
 
     Raises
     ------
     InputError
-        If a parameter is unknown, or the window cannot be opened.
+        If a parameter is unknown; from `reset`, if the window cannot be opened.
     """
 
     def __init__(
@@ -155,31 +155,33 @@ class BulletPlant:
             engine.getJointStates,
             engine.getConstraintState,
         )
-        held, sampled = self._held, self._rates.physics // self._rates.sensor
+        rates, held = self._rates, self._held
+        sampled, substep = rates.physics // rates.sensor, 0
         samples = []
-        human_forces = human_zeros
         base, human = self._base_state, self._human_state
         _, _, yaw, vx, vy, rate = base
         cos, sin = math.cos(yaw), math.sin(yaw)
-        for substep in range(self._rates.substeps):
-            if substep % held == 0:
-                human_forces = forces(base, human, cos, sin, push)
-            along, across, turn = wrench(cos * vx + sin * vy, cos * vy - sin * vx, rate)
-            base_forces = (cos * along - sin * across, sin * along + cos * across, turn)
-            z = base_zeros
-            apply(base_body, base_joints, torque, z, z, base_forces, z, z, client)
-            z = human_zeros
-            apply(human_body, human_joints, torque, z, z, human_forces, z, z, client)
-            advance(client)
-            (x, vx, _, _), (y, vy, _, _), (yaw, rate, _, _) = read(base_body, base_joints, client)
+        for _ in range(rates.substeps // held):
+            human_forces = forces(base, human, cos, sin, push)
+            for _ in range(held):
+                along, across, turn = wrench(cos * vx + sin * vy, cos * vy - sin * vx, rate)
+                base_forces = (cos * along - sin * across, sin * along + cos * across, turn)
+                z = base_zeros
+                apply(base_body, base_joints, torque, z, z, base_forces, z, z, client)
+                z = human_zeros
+                apply(human_body, human_joints, torque, z, z, human_forces, z, z, client)
+                advance(client)
+                (x, vx, _, _), (y, vy, _, _), (yaw, rate, _, _) = read(
+                    base_body, base_joints, client
+                )
+                cos, sin = math.cos(yaw), math.sin(yaw)
+                substep += 1
+                if substep % sampled == 0:
+                    fx, fy, _ = force_on_parent(kind, reaction(grip, client))
+                    samples.append((cos * fx + sin * fy, cos * fy - sin * fx))
             base = (x, y, yaw, vx, vy, rate)
-            cos, sin = math.cos(yaw), math.sin(yaw)
-            if (substep + 1) % held == 0:
-                joints = read(human_body, human_joints, client)
-                human = (*[j[0] for j in joints], *[j[1] for j in joints])
-            if (substep + 1) % sampled == 0:
-                fx, fy, _ = force_on_parent(kind, reaction(grip, client))
-                samples.append((cos * fx + sin * fy, cos * fy - sin * fx))
+            joints = read(human_body, human_joints, client)
+            human = (*[j[0] for j in joints], *[j[1] for j in joints])
         self._base_state, self._human_state = base, human
         self._watch()
         return self._state(np.array(samples))

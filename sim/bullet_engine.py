@@ -13,39 +13,43 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
-from importlib.resources import as_file, files
+from importlib.resources import files
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from xml.etree import ElementTree
 
 from .errors import InputError
 
 
 @contextmanager
-def quiet() -> Iterator[None]:
-    """Keep what C code prints off standard output, which belongs to the user's JSON.
+def quiet(*descriptors: int) -> Iterator[None]:
+    """Keep what C code prints out of the given file descriptors (1 output, 2 error).
 
-    File descriptor 1 is pointed at the null device; C's own buffer is flushed before it is
+    They are pointed at the null device meanwhile. C's own buffers are flushed before they are
     pointed back, else the text would come out when the process ends.
     """
     c_library = ctypes.CDLL(None) if os.name == "posix" else ctypes.CDLL("msvcrt")
-    with suppress(AttributeError, OSError, ValueError):
-        sys.stdout.flush()
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(AttributeError, OSError, ValueError):  # none, or closed
+            stream.flush()
     c_library.fflush(None)
+    kept: dict[int, int] = {}
+    null = os.open(os.devnull, os.O_WRONLY)
     try:
-        kept = os.dup(1)
-    except OSError:  # started without a standard output
-        yield
-        return
-    try:
-        null = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(null, 1)
-        os.close(null)
+        for descriptor in descriptors:
+            with suppress(OSError):  # the process was started without it
+                kept[descriptor] = os.dup(descriptor)
+                os.dup2(null, descriptor)
         yield
     finally:
         c_library.fflush(None)
-        os.dup2(kept, 1)
-        os.close(kept)
+        for descriptor, copy in kept.items():
+            os.dup2(copy, descriptor)
+            os.close(copy)
+        os.close(null)
 
 
-with quiet():
+with quiet(1, 2):  # it announces its build time
     engine = importlib.import_module("pybullet")
 
 
@@ -62,7 +66,7 @@ def connect(gui: bool = False) -> int:
             f"no window can be opened: display {os.environ.get('DISPLAY', '')!r} does not answer; "
             "set DISPLAY, or run without the window"
         )
-    with quiet():
+    with quiet(1):
         client: int = engine.connect(engine.GUI if gui else engine.DIRECT)
     if client < 0:
         raise InputError("no window can be opened: another one is open in this process")
@@ -85,13 +89,32 @@ def _display_opens() -> bool:
 def disconnect(client: int) -> None:
     """Free a client and everything in it; one that is gone already is no error."""
     if engine.isConnected(client):
-        with quiet():
+        with quiet(1):
             engine.disconnect(client)
 
 
-def load(client: int, file: str, flags: int = 0) -> int:
-    """Load a URDF of `cowalk.sim.bodies` with its ground link held, and return the body id."""
-    with as_file(files("cowalk.sim.bodies") / file) as path, quiet():
+def load(client: int, file: str, flags: int = 0, without: str = "") -> int:
+    """Load a URDF of `cowalk.sim.bodies` with its ground link held, and return the body id.
+
+    Parameters
+    ----------
+    client : int
+        Where to load it.
+    file : str
+        Name of the file.
+    flags : int
+        Of the engine's `loadURDF`.
+    without : str
+        A massless link at the end of a fixed joint, left out together with that joint.
+    """
+    root = ElementTree.fromstring(files("cowalk.sim.bodies").joinpath(file).read_text("utf-8"))
+    for part in root.findall(f"link[@name='{without}']"):
+        root.remove(part)
+    for part in root.findall(f"joint/child[@link='{without}']/.."):
+        root.remove(part)
+    with TemporaryDirectory() as folder, quiet(1):
+        path = Path(folder, file)
+        ElementTree.ElementTree(root).write(path)
         body: int = engine.loadURDF(
             str(path), useFixedBase=True, flags=flags, physicsClientId=client
         )
@@ -129,8 +152,9 @@ class Body:
 def load_driven(client: int, file: str, grip: str, joints: tuple[str, ...]) -> Body:
     """Load a body for the physics: no pictures, no collision, no damping, no motors.
 
-    It is loaded twice: the fixed links tell where things are, but a body without them steps
-    15 % faster.
+    It is loaded twice: the link that marks the grip tells where it is, but without the fixed
+    links of both bodies a step takes 15 % less. (The engine's own URDF_MERGE_FIXED_LINKS would
+    do, were it not to move the parent's centre of mass to its joint: bulletphysics/bullet3#4683.)
 
     Parameters
     ----------
@@ -139,7 +163,7 @@ def load_driven(client: int, file: str, grip: str, joints: tuple[str, ...]) -> B
     file : str
         URDF in `cowalk.sim.bodies`.
     grip : str
-        Link by which it is held; fixed links between it and a moving one are followed.
+        Massless link, fixed to a moving one, that marks where it is held.
     joints : tuple of str
         Names of all moving joints, ``yaw`` among them.
     """
@@ -147,19 +171,23 @@ def load_driven(client: int, file: str, grip: str, joints: tuple[str, ...]) -> B
     bare = engine.URDF_IGNORE_VISUAL_SHAPES | engine.URDF_USE_INERTIA_FROM_FILE
     whole = load(client, file, bare)
     info = [
-        engine.getJointInfo(whole, j, client) for j in range(engine.getNumJoints(whole, client))
+        engine.getJointInfo(whole, link, client)
+        for link in range(engine.getNumJoints(whole, client))
     ]
-    links = [i[12].decode() for i in info]
-    origins = {link: engine.getLinkState(whole, j, 0, 1, client)[4] for j, link in enumerate(links)}
-    carrier = links.index(grip)
-    while info[carrier][2] == engine.JOINT_FIXED:
-        carrier = info[carrier][16]
-    carrier_joint = info[carrier][1]
+    origins = {
+        i[12].decode(): engine.getLinkState(whole, link, 0, 1, client)[4]
+        for link, i in enumerate(info)
+    }
+    carrier = info[list(origins).index(grip)][16]
+    centre = engine.getLinkState(whole, carrier, 0, 1, client)
+    pivot, _ = engine.multiplyTransforms(
+        *engine.invertTransform(*centre[:2]), origins[grip], (0.0, 0.0, 0.0, 1.0)
+    )
     engine.removeBody(whole, client)
 
-    body = load(client, file, bare | engine.URDF_MERGE_FIXED_LINKS)
+    body = load(client, file, bare, without=grip)
     count = engine.getNumJoints(body, client)
-    index = {engine.getJointInfo(body, j, client)[1]: j for j in range(count)}
+    index = {engine.getJointInfo(body, joint, client)[1]: joint for joint in range(count)}
     for link in range(-1, count):
         engine.changeDynamics(
             body,
@@ -175,18 +203,13 @@ def load_driven(client: int, file: str, grip: str, joints: tuple[str, ...]) -> B
                 body, link, engine.VELOCITY_CONTROL, force=0.0, physicsClientId=client
             )
     dynamics = [engine.getDynamicsInfo(body, link, client) for link in range(count)]
-    grip_link = index[carrier_joint]
-    centre = engine.getLinkState(body, grip_link, 0, 1, client)
-    pivot, _ = engine.multiplyTransforms(
-        *engine.invertTransform(*centre[:2]), origins[grip], (0.0, 0.0, 0.0, 1.0)
-    )
     return Body(
         body=body,
         joints=tuple(index[name.encode()] for name in joints),
         origins=origins,
         mass=sum(d[0] for d in dynamics),
         yaw_inertia=dynamics[index[b"yaw"]][2][2],
-        grip_link=grip_link,
+        grip_link=index[info[carrier][1]],
         grip_pivot=pivot,
     )
 

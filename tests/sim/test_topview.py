@@ -1,0 +1,72 @@
+"""The drawing from above: things are where they are, in their colours."""
+
+import sys
+
+import numpy as np
+import pytest
+from matplotlib.colors import to_rgb
+
+from cowalk.sim.motion import Path
+from cowalk.sim.plant import PlantState
+from cowalk.sim.topview import BASE, FORCE, HUMAN, PUDDLE, SOLID, WALL, draw
+from cowalk.sim.world import Corridor, Obstacle, World
+
+WORLD = World(
+    Path(((0, 0), (10, 0))),
+    Corridor(3.0),
+    (Obstacle(3.0, 0.3, 0.5), Obstacle(2.5, -1.0, 0.3, "crate")),
+)
+
+
+def state(force=(0.0, 0.0), theta=0.0):
+    return PlantState((1.0, 0.0, theta), (0.8, 0.0), (0.9, -0.65, theta), np.array([force]))
+
+
+def where(picture, colour):
+    """Mean (row, column) of the pixels of a colour, and how many there are."""
+    near = np.abs(picture / 255.0 - to_rgb(colour)).max(axis=-1) < 0.02
+    return np.argwhere(near).mean(axis=0) if near.any() else None, near.sum()
+
+
+@pytest.mark.parametrize("size", [(640, 480), (320, 180), (301, 199)])
+def test_size_and_type(size):
+    picture = draw(WORLD, state(), *size)
+    assert picture.shape == (size[1], size[0], 3)
+    assert picture.dtype == np.uint8
+
+
+def test_everything_is_where_it_is():
+    picture = draw(WORLD, state((0.0, 5.0)), 640, 480)
+    (base_row, base_column), _ = where(picture, BASE)
+    (human_row, human_column), _ = where(picture, HUMAN)
+    assert human_row - base_row == pytest.approx(0.65 * 640 / 6.0, abs=8), "right is below"
+    assert abs(human_column - base_column) < 25
+    (solid_row, solid_column), _ = where(picture, SOLID)
+    assert solid_row > base_row
+    assert solid_column > base_column
+    assert where(picture, WALL)[1] > 10000
+    puddle = picture[240 - round(0.3 * 640 / 6), round(640 * 0.4 + 2.0 * 640 / 6)] / 255.0
+    assert puddle[2] > puddle[0] + 0.2, "blue"
+    assert where(picture, PUDDLE)[1] == 0, "and one sees the path through it"
+
+
+@pytest.mark.parametrize(
+    ("force", "theta", "direction"),
+    [((5.0, 0.0), 0.0, (0, 1)), ((0.0, 5.0), 0.0, (-1, 0)), ((5.0, 0.0), np.pi / 2, (-1, 0))],
+)
+def test_arrow_points_where_the_base_is_pushed(force, theta, direction):
+    picture = draw(WORLD, state(force, theta), 640, 480)
+    arrow, pixels = where(picture, FORCE)
+    assert pixels > 100
+    offset = arrow - (240, 256)
+    assert offset @ direction > 10
+    assert abs(offset @ direction[::-1]) < 5
+    assert where(draw(WORLD, state(), 640, 480), FORCE)[1] == 0
+
+
+def test_open_ground_and_no_global_state():
+    world = World(Path(((0, 0), (5, 5), (5, 10))), start=(1.0, 0.0, 0.0))
+    assert where(draw(world, state(), 200, 150), WALL)[1] == 0
+    assert (
+        "matplotlib.pyplot" not in sys.modules or not sys.modules["matplotlib.pyplot"].get_fignums()
+    )
