@@ -54,6 +54,16 @@ class Verdict:
     reason: str | None = None
 
 
+def explain(verdict: Verdict) -> str:
+    """Return in one line by how much an expectation holds, or how and when it failed."""
+    if verdict.passed:
+        return f"margin {verdict.robustness:.3g}"
+    when = (
+        "" if verdict.violated_at is None else f", first violated at t = {verdict.violated_at:g} s"
+    )
+    return f"{verdict.reason or f'margin {verdict.robustness:.3g}'}{when}"
+
+
 def syntax_error(formula: str, columns: Collection[str], period: float | None = None) -> str | None:
     """Return what is wrong with a formula, in one line, or None.
 

@@ -1,0 +1,246 @@
+"""The command ``cowalk``: run scenarios, list and check what there is, reproduce and compare.
+
+Nothing but typer is imported before a command needs it, so that ``--help`` answers at once.
+"""
+
+from __future__ import annotations
+
+import sys
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from . import cli_studies
+from .cli_output import BAD_INPUT, FAILED, PASSED, complain, emit_json, emit_table, progress_bar
+
+if TYPE_CHECKING:
+    from cowalk.sim.registry import Registry
+
+    from .results import RunResult
+    from .schema import Scenario
+
+app = typer.Typer(
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    help="A human and a robot negotiate where to walk: simulate it, measure it, judge it.",
+    epilog=(
+        "\b\nExamples:\n"
+        "  cowalk run puddle\n"
+        "  cowalk list\n"
+        "  cowalk COMMAND --help\n\n\b\n"
+        "Exit codes: 0 all well, 1 an expectation failed, 2 bad input or a run that was aborted."
+    ),
+)
+
+Json = Annotated[bool, typer.Option("--json", help="JSON alone on standard output.")]
+
+
+class Kind(StrEnum):
+    """What `list` can list."""
+
+    SCENARIOS = "scenarios"
+    HUMANS = "humans"
+    AUTOMATIONS = "automations"
+    SMOOTHERS = "smoothers"
+    PLANTS = "plants"
+
+
+@app.command(
+    epilog=(
+        "\b\nExamples:\n"
+        "  cowalk run puddle\n"
+        "  cowalk run puddle --automation never-yields --out runs/stubborn\n"
+        "  cowalk run puddle --set human.parameters.gain=2.0 --set world.obstacles.0.x=8 --seed 3\n"
+        "  cowalk run my.scenario.yaml --human mymodels:MyHuman --json"
+    )
+)
+def run(
+    scenario: Annotated[
+        str, typer.Argument(metavar="SCENARIO", help="Name in the library, or a YAML file.")
+    ],
+    plant: Annotated[str, typer.Option(help="Plant instead of the scenario's.")] = "",
+    human: Annotated[str, typer.Option(help="Human model instead: name or module:Class.")] = "",
+    automation: Annotated[str, typer.Option(help="Automation instead: name or module:Class.")] = "",
+    smoother: Annotated[str, typer.Option(help="The automation's smoother instead.")] = "",
+    assign: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="KEY=VALUE", help="Replace one value; may be repeated."),
+    ] = None,
+    seed: Annotated[int | None, typer.Option(help="Seed instead of the scenario's.")] = None,
+    out: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Run folder, runs/NAME unless given.")
+    ] = None,
+    as_json: Json = False,
+) -> int:
+    """Run a scenario, keep what it gave, judge it."""
+    from .results import writable_folder
+    from .runner import run as run_scenario
+
+    options = {
+        "plant": plant,
+        "human": human,
+        "automation": automation,
+        "smoother": smoother,
+        "seed": "" if seed is None else str(seed),
+    }
+    loaded = _load(scenario, options, assign or [])
+    folder = writable_folder(out if out is not None else Path("runs") / loaded.name)
+    with progress_bar(loaded.name) as progress:
+        result = run_scenario(loaded, progress)
+    result.write(folder)
+    if as_json:
+        emit_json(result.summary | {"folder": str(folder), "passed": result.passed})
+    else:
+        _report(result, folder)
+    if result.error is not None:
+        kept = f"the trace so far, {len(result.trace)} rows, is in {folder / 'trace.parquet'}"
+        complain(f"{result.error}; {kept}")
+        return BAD_INPUT
+    return PASSED if result.passed else FAILED
+
+
+def _load(source: str, options: dict[str, str], assignments: list[str]) -> Scenario:
+    """Return the scenario with its parts swapped and values set; blame the option given."""
+    from cowalk.sim.errors import InputError
+
+    from .loading import load
+
+    keys = {"smoother": "automation.smoother"}
+    swaps = {name: f"{keys.get(name, name)}={value}" for name, value in options.items() if value}
+    try:
+        return load(source, [*swaps.values(), *assignments])
+    except InputError as error:
+        message = str(error)
+        for name, assignment in swaps.items():
+            if assignment not in assignments:
+                message = message.replace(f"--set {assignment}:", f"--{name} {options[name]}:")
+        raise InputError(message) from error
+
+
+def _report(result: RunResult, folder: Path) -> None:
+    from .expectations import explain
+
+    summary = result.summary
+    metrics = summary["metrics"]
+    if metrics:
+        rows = [(name, entry["value"], entry["unit"]) for name, entry in metrics.items()]
+        emit_table(
+            f"{result.scenario.name}, seed {summary['seed']}", ("metric", "value", "unit"), rows
+        )
+    if result.verdicts:
+        emit_table(
+            "expectations",
+            ("expectation", "verdict", "by how much"),
+            [
+                (verdict.name, "holds" if verdict.passed else "FAILS", explain(verdict))
+                for verdict in result.verdicts
+            ],
+        )
+    picture = folder / "figure.png"
+    if picture.exists():
+        print(f"picture:  {picture}")
+    print(f"ended by: {summary['end']}")
+    factor, wall = summary["real_time_factor"], summary["wall_time_s"]
+    if factor is not None:
+        print(f"speed:    {factor:.0f} times real time ({wall:.2f} s)")
+
+
+@app.command(name="list", epilog="\b\nExamples:\n  cowalk list\n  cowalk list humans --json")
+def list_parts(
+    kind: Annotated[Kind | None, typer.Argument(help="One kind alone.")] = None,
+    as_json: Json = False,
+) -> int:
+    """List scenarios, humans, automations, smoothers, plants."""
+    from cowalk.agents.registry import AUTOMATIONS, HUMANS
+    from cowalk.estimation.smoothing import SMOOTHERS
+    from cowalk.sim.plants import PLANTS
+
+    registries: dict[Kind, Registry[Any]] = {
+        Kind.HUMANS: HUMANS,
+        Kind.AUTOMATIONS: AUTOMATIONS,
+        Kind.SMOOTHERS: SMOOTHERS,
+        Kind.PLANTS: PLANTS,
+    }
+    found: dict[str, list[dict[str, str]]] = {}
+    for each in [kind] if kind else Kind:
+        described = _parts(registries[each]) if each in registries else _scenarios()
+        found[each.value] = [{"name": n, "description": d} for n, d in described.items()]
+    if as_json:
+        emit_json(found)
+    else:
+        for name, entries in found.items():
+            emit_table(name, ("name", "what it is"), [tuple(entry.values()) for entry in entries])
+    return PASSED
+
+
+def _scenarios() -> dict[str, str]:
+    from .documents import parse
+    from .loading import library
+
+    data = {name: parse(file.read_text(encoding="utf-8")).data for name, file in library().items()}
+    return {name: str(item.get("description", "")) for name, item in data.items()}
+
+
+def _parts(registry: Registry[Any]) -> dict[str, str]:
+    from cowalk.sim.errors import InputError
+
+    found = {}
+    for name in registry:
+        try:
+            text = registry.get(name).__doc__ or ""
+        except InputError as error:  # an installed add-on that does not work hides nothing else
+            text = str(error)
+        found[name] = text.strip().partition("\n")[0]
+    return found
+
+
+@app.command(
+    epilog="\b\nExamples:\n  cowalk check my.scenario.yaml\n  cowalk check *.scenario.yaml"
+)
+def check(
+    files: Annotated[list[str], typer.Argument(metavar="FILE...", help="Scenario files.")],
+) -> int:
+    """Report every fault of scenario files with its line."""
+    from cowalk.sim.errors import InputError
+
+    from .loading import faults, find
+
+    code = PASSED
+    for file in files:
+        try:
+            found = [str(fault) for fault in faults(find(file))]
+        except InputError as error:
+            found = [str(error)]
+        print("\n".join(found) if found else f"{file}: no fault")
+        code = BAD_INPUT if found else code
+    return code
+
+
+cli_studies.register(app)
+
+
+def main() -> None:
+    """Run the command line and exit with its code."""
+    # Without arguments: the help, not a complaint.
+    try:
+        code = app(args=sys.argv[1:] or ["--help"], prog_name="cowalk", standalone_mode=False)
+    except Exception as error:
+        message = _one_line(error)
+        if message is None:
+            raise
+        complain(message)
+        code = BAD_INPUT
+    sys.exit(code)
+
+
+def _one_line(error: Exception) -> str | None:
+    """Return what a user did wrong, or None if the error is ours."""
+    # Typer brings its own copy of click or uses the installed one: no class to name for both.
+    if hasattr(error, "format_message"):
+        return f"{error.format_message()} (see cowalk --help)"
+    from cowalk.sim.errors import InputError, SimulationError
+
+    return str(error) if isinstance(error, InputError | SimulationError) else None

@@ -1,0 +1,146 @@
+"""Pytest plugin: ``*.scenario.yaml`` files are tests, one for each expectation.
+
+The fixture `run_scenario` runs a scenario for assertions in Python. Nothing of cowalk's is
+imported before a scenario is met, so that other projects' tests start as fast as before.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
+
+import pytest
+
+if TYPE_CHECKING:
+    from .results import RunResult
+
+SUFFIX = ".scenario.yaml"
+
+
+class Failure(Exception):
+    """A scenario is broken, was aborted, or does not meet an expectation."""
+
+
+class RunScenario(Protocol):
+    """What the fixture `run_scenario` gives."""
+
+    def __call__(self, source: str | Path, *overrides: str, seed: int | None = None) -> RunResult:
+        """Run a scenario by its name or file, with ``dotted.key=VALUE`` overrides."""
+        ...
+
+
+@pytest.fixture
+def run_scenario(request: pytest.FixtureRequest) -> RunScenario:
+    """Run a scenario: ``run_scenario("puddle", "human.parameters.gain=2.0", seed=3)``.
+
+    A relative path is taken from the test's folder, else from the current one.
+    """
+
+    def run_it(source: str | Path, *overrides: str, seed: int | None = None) -> RunResult:
+        from .loading import load
+
+        beside = request.path.parent / source
+        own_seed = [] if seed is None else [f"seed={seed}"]
+        return _run(load(beside if beside.is_file() else source, [*overrides, *own_seed]))
+
+    return run_it
+
+
+def _run(scenario: Any) -> RunResult:
+    from .runner import run
+
+    result = run(scenario)
+    if result.summary["end"] == "interrupted":
+        raise KeyboardInterrupt
+    return result
+
+
+def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
+    """Collect scenario files."""
+    if file_path.name.endswith(SUFFIX):
+        return ScenarioFile.from_parent(parent, path=file_path)
+    return None
+
+
+class ScenarioFile(pytest.File):
+    """A scenario file; run once, when its first test is."""
+
+    _result: RunResult | None = None
+
+    def collect(self) -> Iterator[pytest.Item]:
+        """Yield a test for each expectation; one for the whole file if it is broken or has none."""
+        from .documents import parse
+        from .loading import faults, load
+
+        # A broken file is a failed test, not an error that would keep all others from running.
+        if faults(self.path):
+            yield ScenarioTest.from_parent(self, name="valid", line=1)
+            return
+        names = list(load(self.path).expect)
+        document = parse(self.path.read_text(encoding="utf-8"))
+        for name in names:
+            yield ScenarioTest.from_parent(
+                self, name=name, line=document.line(("expect", name)), expectation=name
+            )
+        if not names:
+            yield ScenarioTest.from_parent(self, name="runs to its end", line=1)
+
+    def result(self) -> RunResult:
+        """Return the result of the run, which is made once.
+
+        Raises
+        ------
+        Failure
+            If the file is broken or the run was aborted.
+        """
+        from .loading import faults, load
+
+        if self._result is None:
+            if found := faults(self.path):
+                count = f"{len(found)} fault{'s' * (len(found) > 1)}"
+                lines = [f"  line {fault.line}: {fault.message}" for fault in found]
+                raise Failure("\n".join([f"{self.path} is broken, {count}:", *lines]))
+            self._result = _run(load(self.path))
+        if self._result.error is not None:
+            raise Failure(f"the run was aborted: {self._result.error}\n{self.hint()}")
+        return self._result
+
+    def hint(self) -> str:
+        """Return how to look at the run."""
+        return f"to see the run: cowalk run {self.path}"
+
+
+class ScenarioTest(pytest.Item):
+    """One expectation of a scenario, or the whole of one that has none."""
+
+    parent: ScenarioFile
+
+    def __init__(self, *, line: int, expectation: str | None = None, **options: Any) -> None:
+        super().__init__(**options)
+        self._line = line
+        self._expectation = expectation
+
+    def runtest(self) -> None:
+        """Run the scenario, if that was not done yet, and look at the verdict."""
+        from .expectations import explain
+
+        result = self.parent.result()
+        for verdict in result.verdicts:
+            if verdict.name == self._expectation and not verdict.passed:
+                raise Failure(
+                    f"expectation: {verdict.name}\n"
+                    f"formula:     {verdict.formula}\n"
+                    f"fails:       {explain(verdict)}\n"
+                    f"{self.parent.hint()}"
+                )
+
+    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], *args: Any) -> Any:
+        """Return a few lines about the scenario; a traceback only where the fault is cowalk's."""
+        if isinstance(excinfo.value, Failure):
+            return str(excinfo.value)
+        return super().repr_failure(excinfo, *args)
+
+    def reportinfo(self) -> tuple[Path, int, str]:
+        """Return where the expectation stands."""
+        return self.path, self._line - 1, f"{self.path.name}: {self.name}"
