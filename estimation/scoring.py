@@ -62,4 +62,4 @@ def lag(estimate: ArrayLike, truth: ArrayLike, period: float, longest: float = 1
 
 def _errors(estimate: ArrayLike, truth: ArrayLike) -> Array:
     error = np.asarray(estimate, dtype=float) - np.asarray(truth, dtype=float)
-    return error[np.isfinite(error)]
+    return np.asarray(error[np.isfinite(error)])

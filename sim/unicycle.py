@@ -28,14 +28,15 @@ class UnicyclePlant:
         self._samples = rates.samples
         self._pose = (0.0, 0.0, 0.0)
         self._twist = (0.0, 0.0)
+        self._hand_force = (0.0, 0.0)
         self._world: World | None = None
 
     def reset(self, world: World, rng: np.random.Generator) -> PlantState:
         """See `Plant.reset`."""
         self._world = world
         self._pose = world.start
-        self._twist = (0.0, 0.0)
-        return self._state((0.0, 0.0))
+        self._twist = self._hand_force = (0.0, 0.0)
+        return self._state()
 
     def step(
         self, twist_command: tuple[float, float], hand_force: tuple[float, float]
@@ -51,16 +52,17 @@ class UnicyclePlant:
             theta + 2.0 * half,
         )
         self._twist = (v, omega)
+        self._hand_force = hand_force
         if not math.isfinite(sum(self._pose)):
             raise SimulationError(f"the base's pose is {self._pose}: not finite")
-        return self._state(hand_force)
+        return self._state()
 
-    def _state(self, hand_force: tuple[float, float]) -> PlantState:
+    def _state(self) -> PlantState:
         x, y, theta = self._pose
         cos, sin = math.cos(theta), math.sin(theta)
         place_x, place_y, place_theta = HUMAN_PLACE
         force = np.empty((self._samples, 2))
-        force[:, 0], force[:, 1] = hand_force
+        force[:, 0], force[:, 1] = self._hand_force
         return PlantState(
             pose=self._pose,
             twist=self._twist,
@@ -74,9 +76,8 @@ class UnicyclePlant:
 
     def render(self, width: int, height: int) -> np.ndarray:
         """See `Plant.render`: a drawing from above."""
-        state = self._state((0.0, 0.0))
         assert self._world is not None, "reset before render"
-        return draw(self._world, state, width, height)
+        return draw(self._world, self._state(), width, height)
 
     def close(self) -> None:
         """See `Plant.close`: nothing is held."""

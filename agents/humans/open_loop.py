@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from typing import ClassVar
+
 import numpy as np
 
 from cowalk.agents.interfaces import Observation, Situation, Truth
-from cowalk.sim.errors import InputError
 from cowalk.sim.motion import Array
 
+from .demand import Pair, require
 
+
+@dataclass(kw_only=True)
 class OpenLoopHuman:
     """Exerts a force that is a step function of time (arXiv 2407.17275, section IV).
 
@@ -32,23 +37,18 @@ class OpenLoopHuman:
         If the times do not rise.
     """
 
-    closed_loop = False
+    closed_loop: ClassVar[bool] = False
 
-    def __init__(
-        self,
-        profile: tuple[tuple[float, float, float], ...] = ((0.0, 0.0, 0.0),),
-        force_max: tuple[float, float] = (7.5, 7.5),
-        gain: float = 2.0,
-    ) -> None:
-        table = np.asarray(profile, dtype=float).reshape(-1, 3)
-        if np.any(np.diff(table[:, 0]) <= 0.0):
-            raise InputError(
-                f"profile times {table[:, 0].tolist()}: each must be later than the last"
-            )
+    profile: tuple[tuple[float, float, float], ...] = ((0.0, 0.0, 0.0),)
+    force_max: Pair = (7.5, 7.5)
+    gain: float = 2.0
+
+    def __post_init__(self) -> None:
+        table = np.asarray(self.profile, dtype=float).reshape(-1, 3)
+        rising = bool(np.all(np.diff(table[:, 0]) > 0.0))
+        require(self, "profile", rising, "each time must be later than the one before")
         self._times = table[:, 0]
         self._forces = np.vstack(([0.0, 0.0], table[:, 1:]))
-        self._force_max = np.asarray(force_max, dtype=float)
-        self._gain = gain
 
     def reset(self, rng: np.random.Generator, situation: Situation) -> None:
         """See `Human.reset`."""
@@ -60,8 +60,8 @@ class OpenLoopHuman:
         # Control times are sums of periods: 12 s must count as 12 s in spite of rounding.
         now = observation["time"][..., 0] + 1e-9
         force = self._forces[np.searchsorted(self._times, now, side="right")]
-        share = np.minimum(np.abs(force) / self._force_max, 1.0)
-        wish = observation["twist"] + np.sign(force) * self._upper / self._gain
+        share = np.minimum(np.abs(force) / self.force_max, 1.0)
+        wish = observation["twist"] + np.sign(force) * self._upper / self.gain
         self._truth = Truth(wish, share)
         return np.asarray(force)
 

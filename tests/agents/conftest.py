@@ -1,0 +1,31 @@
+"""A situation and made-up observations for agents that are tested without a plant."""
+
+import numpy as np
+import pytest
+
+from cowalk.agents.interfaces import Situation
+from cowalk.sim.motion import Path, TwistBounds
+
+
+@pytest.fixture
+def situation():
+    return Situation(
+        Path(((0.0, 0.0), (30.0, 0.0))), 0.8, TwistBounds((0.0, -0.5), (1.2, 0.5)), 0.05
+    )
+
+
+@pytest.fixture
+def observe():
+    def make(twist=(0.8, 0.0), force=(0.0, 0.0), pose=(0.0, 0.0, 0.0), obstacles=(), time=0.0):
+        rows = np.zeros((8, 4))
+        for i, (x, y, radius) in enumerate(obstacles):
+            rows[i] = [1.0, x, y, radius]
+        return {
+            "twist": np.array(twist, dtype=float),
+            "force": np.tile(np.array(force, dtype=float), (12, 1)),
+            "pose": np.array(pose, dtype=float),
+            "obstacles": rows,
+            "time": np.array([time]),
+        }
+
+    return make

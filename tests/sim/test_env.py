@@ -1,0 +1,185 @@
+import warnings
+
+import numpy as np
+import pytest
+from pettingzoo.test import parallel_api_test, parallel_seed_test
+
+from cowalk.sim import parallel_env
+from cowalk.sim.env import STRAIGHT_CORRIDOR
+from cowalk.sim.errors import InputError, SimulationError
+from cowalk.sim.motion import Path
+from cowalk.sim.plant import Rates
+from cowalk.sim.plants import PLANTS
+from cowalk.sim.sensor import SensorParameters
+from cowalk.sim.world import Corridor, Obstacle, World
+
+NOISY = SensorParameters(noise=(0.2, 0.2))
+
+
+def episode(env, seed, steps=None):
+    """Play seeded random actions; return every number that comes out."""
+    actions = np.random.default_rng(123)
+    numbers = []
+    observations, _ = env.reset(seed=seed)
+    while env.agents and (steps is None or len(numbers) < steps):
+        observations, rewards, *_, infos = env.step(
+            {
+                "human": actions.normal(scale=4.0, size=2),
+                "automation": np.array([0.8, 0.3 * actions.normal()]),
+            }
+        )
+        row = [part.ravel() for seat in observations.values() for part in seat.values()]
+        row += [np.array(list(rewards.values())), np.array([infos["human"]["clearance"]])]
+        numbers.append(np.concatenate(row))
+    return np.array(numbers)
+
+
+@pytest.mark.parametrize("plant", PLANTS.names())
+def test_pettingzoo_api_without_a_warning(plant):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        env = parallel_env(plant=plant, duration=5.0)
+        parallel_api_test(env, num_cycles=150)
+        parallel_seed_test(lambda: parallel_env(plant=plant, duration=2.0))
+        env.close()
+
+
+@pytest.mark.parametrize("plant", PLANTS.names())
+def test_one_seed_one_episode_bit_for_bit(plant):
+    first_env = parallel_env(plant=plant, sensor=NOISY, duration=8.0)
+    first = episode(first_env, seed=3)
+    again = episode(first_env, seed=3)
+    fresh = episode(parallel_env(plant=plant, sensor=NOISY, duration=8.0), seed=3)
+    other = episode(first_env, seed=4)
+    assert len(first) > 50
+    assert first.tobytes() == again.tobytes() == fresh.tobytes()
+    assert first.tobytes() != other.tobytes()
+
+
+def test_spaces_are_the_same_for_both_seats_and_hold_the_observations():
+    env = parallel_env(plant="unicycle", rates=Rates(sensor=120))
+    observations, _ = env.reset(seed=0)
+    assert env.observation_space("human") == env.observation_space("automation")
+    for seat in env.agents:
+        assert env.observation_space(seat).contains(dict(observations[seat]))
+    assert observations["human"]["force"].shape == (6, 2)
+
+
+def test_only_the_human_sees_what_only_the_human_sees():
+    world = World(STRAIGHT_CORRIDOR.path, obstacles=(Obstacle(3, 0, 0.4, seen_by=("human",)),))
+    observations, _ = parallel_env(world, plant="unicycle").reset(seed=0)
+    assert observations["human"]["obstacles"][0, 0] == 1.0
+    assert not observations["automation"]["obstacles"].any()
+
+
+def test_the_automation_reads_the_sensor_and_the_human_feels_the_force():
+    env = parallel_env(plant="unicycle", sensor=NOISY)
+    env.reset(seed=0)
+    observations, *_ = env.step({"human": np.array([1.0, 2.0]), "automation": np.zeros(2)})
+    np.testing.assert_array_equal(observations["human"]["force"], [[1.0, 2.0]] * 12)
+    assert observations["automation"]["force"].std(axis=0).min() > 0.05
+
+
+def walk(env, twist, force=(0.0, 0.0)):
+    env.reset(seed=0)
+    total = {"human": 0.0, "automation": 0.0}
+    while env.agents:
+        _, rewards, terminations, truncations, infos = env.step(
+            {"human": np.array(force), "automation": np.array(twist)}
+        )
+        total = {seat: total[seat] + rewards[seat] for seat in total}
+    return total, terminations, truncations, infos
+
+
+def test_episodes_end_at_the_goal_in_a_wall_and_in_time():
+    short = World(Path(((0.0, 0.0), (2.0, 0.0))), Corridor(3.0))
+    _, terminations, truncations, infos = walk(parallel_env(short, plant="unicycle"), (0.8, 0.0))
+    assert infos["human"]["goal"]
+    assert all(terminations.values())
+    assert not any(truncations.values())
+    _, terminations, _, infos = walk(parallel_env(short, plant="unicycle"), (0.8, -0.5))
+    assert infos["human"]["collision"]
+    assert all(terminations.values())
+    _, terminations, truncations, infos = walk(
+        parallel_env(short, plant="unicycle", duration=1.0), (0.0, 0.0)
+    )
+    assert all(truncations.values())
+    assert not any(terminations.values())
+    assert not infos["human"]["goal"]
+
+
+def test_rewards_prefer_walking_without_effort_and_out_of_the_puddle():
+    dry = World(Path(((0.0, 0.0), (6.0, 0.0))))
+    wet = World(Path(((0.0, 0.0), (6.0, 0.0))), obstacles=(Obstacle(3.0, 0.0, 0.5),))
+    calm, *_ = walk(parallel_env(dry, plant="unicycle"), (0.8, 0.0))
+    pushed, *_ = walk(parallel_env(dry, plant="unicycle"), (0.8, 0.0), force=(0.0, 5.0))
+    splashed, *_ = walk(parallel_env(wet, plant="unicycle"), (0.8, 0.0))
+    waiting, *_ = walk(parallel_env(dry, plant="unicycle", duration=7.5), (0.0, 0.0))
+    assert calm["human"] > splashed["human"]
+    assert calm["human"] > waiting["human"]
+    assert calm["human"] > pushed["human"]
+    assert calm["automation"] > pushed["automation"]
+    assert calm["automation"] > waiting["automation"]
+
+
+@pytest.mark.parametrize("seat", ["human", "automation"])
+@pytest.mark.parametrize("bad", [np.nan, np.inf])
+def test_an_action_that_is_not_finite_is_named(seat, bad):
+    env = parallel_env(plant="unicycle")
+    env.reset(seed=0)
+    actions = {"human": np.zeros(2), "automation": np.zeros(2)}
+    actions[seat] = np.array([0.0, bad])
+    with pytest.raises(SimulationError, match=rf"the {seat}'s .* {bad}\] at t = 0 s"):
+        env.step(actions)
+
+
+def test_actions_are_clipped_to_the_action_space():
+    env = parallel_env(plant="unicycle", force_limit=10.0)
+    env.reset(seed=0)
+    observations, *_ = env.step(
+        {"human": np.array([99.0, -99.0]), "automation": np.array([9.0, -9.0])}
+    )
+    np.testing.assert_array_equal(observations["human"]["force"][0], [10.0, -10.0])
+    np.testing.assert_array_equal(observations["human"]["twist"], [1.2, -0.5])
+
+
+@pytest.mark.parametrize("plant", PLANTS.names())
+def test_a_picture_is_drawn(plant):
+    env = parallel_env(plant=plant, render_mode="rgb_array")
+    env.reset(seed=0)
+    picture = env.render()
+    assert picture.shape == (480, 640, 3)
+    assert picture.dtype == np.uint8
+    assert picture.std() > 5.0
+    env.close()
+
+
+def test_human_rendering_opens_a_window_for_plants_without_a_viewer(monkeypatch):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    env = parallel_env(plant="unicycle", render_mode="human", duration=0.2)
+    walk(env, (0.8, 0.0))
+    from matplotlib import pyplot as plt
+
+    assert plt.fignum_exists("cowalk")
+    plt.close("all")
+
+
+@pytest.mark.parametrize(
+    ("rates", "named"),
+    [
+        ({"physics": 250}, ("250", "20")),
+        ({"sensor": 100}, ("240", "100")),
+        ({"control": 7}, ("240", "7")),
+        ({"control": 0}, ("240", "0")),
+    ],
+)
+def test_rates_that_are_no_integers_of_one_another_are_refused_with_both_numbers(rates, named):
+    with pytest.raises(InputError) as refused:
+        Rates(**rates)
+    assert all(number in str(refused.value) for number in named)
+
+
+def test_unknown_plant_is_refused_with_what_is_known():
+    with pytest.raises(InputError, match=r"'bulet'; did you mean 'bullet'\?"):
+        parallel_env(plant="bulet")
