@@ -135,6 +135,11 @@ def test_nan_beside_the_point_changes_nothing(formula, passed):
     assert found.reason is None
 
 
+def test_a_violation_beside_nan_is_dated_where_it_is_certain():
+    assert verdict("always (late > 1.0)").violated_at == pytest.approx(0.3)
+    assert verdict("always (late > 0.2)").violated_at == pytest.approx(0.05)
+
+
 def test_arithmetic_without_a_result_fails_and_says_so():
     assert "no number" in verdict("always (sqrt(zero - 1) >= 0)").reason
     assert not verdict("always (zero / zero >= 0)").passed
