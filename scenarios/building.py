@@ -82,7 +82,7 @@ def _prepare(
     registry: Registry[T], component: Component, section: str, shared: Collection[str]
 ) -> tuple[Callable[..., T] | None, dict[str, Any], list[Problem]]:
     """Return the constructor, the validated parameters and every problem of the two."""
-    here: KeyPath = tuple(section.split("."))
+    here = _place(section)
     try:
         constructor = registry.get(component.name)
     except InputError as error:
@@ -106,6 +106,10 @@ def _prepare(
         names[field]: getattr(model, field) for field in names if field in model.model_fields_set
     }
     return constructor, values | (model.model_extra or {}), problems
+
+
+def _place(section: str) -> KeyPath:
+    return tuple(int(step) if step.isdecimal() else step for step in section.split("."))
 
 
 def _elsewhere(name: str, section: str) -> str:
@@ -175,7 +179,7 @@ def _checkable(hint: Any) -> Any:
 
 def _constructor_problem(error: Exception, component: Component, section: str) -> Problem:
     """Return why a constructor refused, at the parameter that its message begins with."""
-    here: KeyPath = tuple(section.split("."))
+    here = _place(section)
     if not isinstance(error, ValueError):
         reason = f"it cannot be built: {type(error).__name__}: {error}"
         return Problem((*here, "name"), f"{section}.name = {component.name!r}: {reason}")

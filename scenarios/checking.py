@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 from pydantic import ValidationError
 
-from cowalk.agents.registry import AUTOMATIONS, HUMANS
+from cowalk.agents.interfaces import Human
+from cowalk.agents.registry import AUTOMATIONS, HUMANS, IMPERFECTIONS
 from cowalk.estimation.smoothing import SMOOTHERS
 from cowalk.sim.errors import InputError
 from cowalk.sim.plants import PLANTS
 from cowalk.sim.registry import Registry
 
 from .building import attempt, check_parameters
-from .documents import Document, Problem
+from .documents import Document, Problem, dotted
+from .humans import attempt_human, situation_of
 from .overrides import component_sections
 from .results import UNITS
 from .schema import Component, Scenario
@@ -22,6 +25,7 @@ from .wording import validate
 REGISTRIES: dict[str, Registry[Any]] = {
     "plant": PLANTS,
     "human": HUMANS,
+    "human.imperfections": IMPERFECTIONS,
     "automation": AUTOMATIONS,
     "automation.smoother": SMOOTHERS,
 }
@@ -30,6 +34,7 @@ REGISTRIES: dict[str, Registry[Any]] = {
 SHARED = {
     "plant": ("rates",),
     "human": ("intention",),
+    "human.imperfections": ("human",),
     "automation": ("negotiation", "smoother"),
     "automation.smoother": (),
 }
@@ -60,12 +65,13 @@ def _components(data: dict[str, Any], scenario: Scenario | None) -> list[Problem
     """Return the problems of all named parts; they are built if everything around is right."""
     problems: list[Problem] = []
     for _, path, value in component_sections(data):
-        section = ".".join(path)
+        section = dotted(path)
+        kind = dotted(tuple(step for step in path if isinstance(step, str)))
         try:
             component = Component(name=value["name"], parameters=value.get("parameters") or {})
         except (ValidationError, TypeError, KeyError):
             continue  # reported as a fault of the schema already
-        problems += check_parameters(REGISTRIES[section], component, section, SHARED[section])
+        problems += check_parameters(REGISTRIES[kind], component, section, SHARED[kind])
     if not problems and scenario is not None:
         problems += _agents(scenario)
     return problems
@@ -76,11 +82,25 @@ def _agents(scenario: Scenario) -> list[Problem]:
     seat = scenario.automation
     smoother = attempt(SMOOTHERS, seat.smoother, "automation.smoother")
     built = (
-        attempt(HUMANS, scenario.human, "human", intention=scenario.human.intention),
+        _human(scenario),
         smoother,
         attempt(AUTOMATIONS, seat, "automation", negotiation=seat.negotiation, smoother=smoother),
     )
     return [part for part in built if isinstance(part, Problem)]
+
+
+def _human(scenario: Scenario) -> Human | Problem:
+    """Return the human, or why they cannot be built, put on the plant or sent for a walk."""
+    human = attempt_human(scenario.human, scenario.plant.name)
+    if isinstance(human, Problem):
+        return human
+    try:
+        human.reset(np.random.default_rng(0), situation_of(scenario))
+    except InputError as error:
+        return Problem(("human",), f"human: {error}")
+    except Exception:
+        pass  # a class with a bug: the run says what and when
+    return human
 
 
 def _formulas(data: dict[str, Any], scenario: Scenario | None) -> list[Problem]:

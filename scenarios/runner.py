@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from cowalk.agents.interfaces import Automation, Belief, Human, Situation, Truth
-from cowalk.agents.registry import AUTOMATIONS, HUMANS
+from cowalk.agents.interfaces import Automation, Belief, Human, Truth
+from cowalk.agents.registry import AUTOMATIONS
 from cowalk.estimation.smoothing import SMOOTHERS
 from cowalk.sim.env import CowalkEnv
 from cowalk.sim.errors import InputError, SimulationError
@@ -21,6 +21,7 @@ from cowalk.sim.motion import Array
 
 from .building import build
 from .expectations import judge
+from .humans import build_human, situation_of
 from .loading import load
 from .metrics import metrics
 from .results import RunResult, Trace, json_ready
@@ -68,7 +69,7 @@ def build_agents(scenario: Scenario) -> tuple[Human, Automation]:
     InputError
         If a name or a parameter is not right.
     """
-    human = build(HUMANS, scenario.human, "human", intention=scenario.human.intention)
+    human = build_human(scenario.human, scenario.plant.name)
     smoother = build(SMOOTHERS, scenario.automation.smoother, "automation.smoother")
     automation = build(
         AUTOMATIONS,
@@ -118,9 +119,7 @@ def _episode(
 ) -> tuple[str, str | None]:
     """Step until the end; return how it ended, and the error if that is why."""
     env_seed, human_seed, automation_seed = np.random.SeedSequence(scenario.seed).spawn(3)
-    situation = Situation(
-        scenario.world.path, scenario.pace, scenario.bounds, scenario.rates.period
-    )
+    situation = situation_of(scenario)
     row = _Row(scenario)
     total = env.steps_per_episode
     report_every = scenario.rates.control
