@@ -1,5 +1,6 @@
 """Who decides: human models, automations, and the registries that find them by name."""
 
+from .checks import check_automation, check_human
 from .interfaces import Automation, Belief, Human, Observation, Situation, Truth
 from .registry import AUTOMATIONS, HUMANS, IMPERFECTIONS
 
@@ -13,4 +14,6 @@ __all__ = [
     "Observation",
     "Situation",
     "Truth",
+    "check_automation",
+    "check_human",
 ]

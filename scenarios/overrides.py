@@ -34,7 +34,8 @@ def component_sections(data: Any) -> Iterator[tuple[Any, KeyPath, Any]]:
         if path in COMPONENTS:
             yield parent, path, value
         elif isinstance(value, list):
-            yield from ((value, (*path, index), item) for index, item in enumerate(value))
+            for index, item in enumerate(value):
+                yield value, (*path, index), item
 
 
 def expand_names(data: Any) -> None:

@@ -80,4 +80,4 @@ class GaitRipple(Imperfection):
         self._count += 1
         speed = np.abs(observation["twist"][..., :1])
         walking = np.minimum(speed / self.walking_speed, 1.0)
-        return force + walking * self._amplitude * np.sin(angle)
+        return np.asarray(force + walking * self._amplitude * np.sin(angle))
