@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
+from contextlib import suppress
+from typing import Any, TypeVar
 
 import numpy as np
 from pydantic import ValidationError
@@ -14,13 +15,15 @@ from cowalk.sim.errors import InputError
 from cowalk.sim.plants import PLANTS
 from cowalk.sim.registry import Registry
 
-from .building import attempt, check_parameters
+from .building import attempt, check_parameters, complete
 from .documents import Document, Problem, dotted
 from .humans import attempt_human, situation_of
 from .overrides import component_sections
 from .results import UNITS
 from .schema import Component, Scenario
 from .wording import validate
+
+C = TypeVar("C", bound=Component)
 
 REGISTRIES: dict[str, Registry[Any]] = {
     "plant": PLANTS,
@@ -32,7 +35,7 @@ REGISTRIES: dict[str, Registry[Any]] = {
 """Where the components of each section are looked up."""
 
 SHARED = {
-    "plant": ("rates",),
+    "plant": ("rates", "gui"),
     "human": ("intention",),
     "human.imperfections": ("human",),
     "automation": ("negotiation", "smoother"),
@@ -59,6 +62,31 @@ def check(document: Document) -> tuple[Scenario | None, list[Problem]]:
         except InputError as error:
             problems.append(Problem(("automation", "negotiation", "period"), str(error)))
     return scenario, problems
+
+
+def resolve(scenario: Scenario) -> Scenario:
+    """Return the scenario with the default parameters of its parts written out.
+
+    A file of it gives the same run even after a default has changed.
+    """
+
+    def full(component: C, section: str) -> C:
+        parameters = complete(REGISTRIES[section], component, SHARED[section])
+        return component.model_copy(update={"parameters": parameters})
+
+    smoother = full(scenario.automation.smoother, "automation.smoother")
+    automation = full(scenario.automation, "automation").model_copy(update={"smoother": smoother})
+    imperfections = tuple(
+        full(item, "human.imperfections") for item in scenario.human.imperfections
+    )
+    human = full(scenario.human, "human").model_copy(update={"imperfections": imperfections})
+    return scenario.model_copy(
+        update={
+            "plant": full(scenario.plant, "plant"),
+            "human": human,
+            "automation": automation,
+        }
+    )
 
 
 def _components(data: dict[str, Any], scenario: Scenario | None) -> list[Problem]:
@@ -94,12 +122,11 @@ def _human(scenario: Scenario) -> Human | Problem:
     human = attempt_human(scenario.human, scenario.plant.name)
     if isinstance(human, Problem):
         return human
-    try:
-        human.reset(np.random.default_rng(0), situation_of(scenario))
-    except InputError as error:
-        return Problem(("human",), f"human: {error}")
-    except Exception:
-        pass  # a class with a bug: the run says what and when
+    with suppress(Exception):  # of a class with a bug, the run says what and when
+        try:
+            human.reset(np.random.default_rng(0), situation_of(scenario))
+        except InputError as error:
+            return Problem(("human",), f"human: {error}")
     return human
 
 

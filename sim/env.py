@@ -189,7 +189,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self._measured = self._sensor.measure(state.force_on_base)
         clearance, solid_clearance = self._clearance(state.pose, state.human_pose)
         observations = self._observations()
-        station = float(self._relative[0])
+        station = self._relative[0]
         goal = station >= self.world.path.length
         collision = solid_clearance < 0.0
         self._info = {"clearance": clearance, "goal": goal, "collision": collision}
@@ -245,14 +245,14 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
 
     def _observations(self) -> dict[str, Observation]:
         state = self._state
-        self._relative = self.world.path.relative_pose(state.pose)
+        self._relative = self.world.path.relative(*state.pose)
         twist, time = np.array(state.twist), np.array([self._step_count / self.rates.control])
         force = {"human": state.force_on_base, "automation": self._measured}
         return {
             seat: Observation(
                 twist=twist.copy(),
                 force=force[seat].copy(),
-                pose=self._relative.copy(),
+                pose=np.array(self._relative),
                 obstacles=self._eyes[seat].look(state.pose),
                 time=time.copy(),
             )
