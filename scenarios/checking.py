@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 from typing import Any, TypeVar
 
-import numpy as np
 from pydantic import ValidationError
 
-from cowalk.agents.interfaces import Human
 from cowalk.agents.registry import AUTOMATIONS, HUMANS, IMPERFECTIONS
 from cowalk.estimation.smoothing import SMOOTHERS
 from cowalk.sim.errors import InputError
@@ -17,7 +14,7 @@ from cowalk.sim.registry import Registry
 
 from .building import attempt, check_parameters, complete
 from .documents import Document, Problem, dotted
-from .humans import attempt_human, situation_of
+from .humans import attempt_human
 from .overrides import component_sections
 from .results import UNITS
 from .schema import Component, Scenario
@@ -110,24 +107,11 @@ def _agents(scenario: Scenario) -> list[Problem]:
     seat = scenario.automation
     smoother = attempt(SMOOTHERS, seat.smoother, "automation.smoother")
     built = (
-        _human(scenario),
+        attempt_human(scenario.human, scenario.plant.name, scenario.rates.period),
         smoother,
         attempt(AUTOMATIONS, seat, "automation", negotiation=seat.negotiation, smoother=smoother),
     )
     return [part for part in built if isinstance(part, Problem)]
-
-
-def _human(scenario: Scenario) -> Human | Problem:
-    """Return the human, or why they cannot be built, put on the plant or sent for a walk."""
-    human = attempt_human(scenario.human, scenario.plant.name)
-    if isinstance(human, Problem):
-        return human
-    with suppress(Exception):  # of a class with a bug, the run says what and when
-        try:
-            human.reset(np.random.default_rng(0), situation_of(scenario))
-        except InputError as error:
-            return Problem(("human",), f"human: {error}")
-    return human
 
 
 def _formulas(data: dict[str, Any], scenario: Scenario | None) -> list[Problem]:

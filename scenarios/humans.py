@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
-from cowalk.agents.interfaces import Human, Situation
+from cowalk.agents.interfaces import Human
 from cowalk.agents.registry import HUMANS, IMPERFECTIONS
 from cowalk.sim.errors import InputError
 
 from .building import attempt
 from .documents import Problem
-from .schema import HumanComponent, Scenario
+from .schema import HumanComponent
 
 
-def build_human(component: HumanComponent, plant: str) -> Human:
+def build_human(component: HumanComponent, plant: str, period: float) -> Human:
     """Return the human that a section describes, not yet reset.
 
     Parameters
     ----------
     component : HumanComponent
     plant : str
-        Name of the plant, since the body of some makes an imperfection by itself.
+        Name of the plant.
+    period : float
+        Control period, s.
 
     Raises
     ------
@@ -31,24 +33,16 @@ def build_human(component: HumanComponent, plant: str) -> Human:
     return found
 
 
-def attempt_human(component: HumanComponent, plant: str) -> Human | Problem:
+def attempt_human(component: HumanComponent, plant: str, period: float) -> Human | Problem:
     """Return the human that a section describes, or the first problem (see `build_human`)."""
-    found = attempt(HUMANS, component, "human", intention=component.intention)
+    found: Human | Problem = attempt(HUMANS, component, "human", intention=component.intention)
     for index, imperfection in enumerate(component.imperfections):
         if isinstance(found, Problem):
-            return found
+            break
         section = f"human.imperfections.{index}"
-        found = attempt(IMPERFECTIONS, imperfection, section, human=found)
-        plants = getattr(found, "plants", None)
-        if plants is not None and plant not in plants:
-            return Problem(
-                ("human", "imperfections", index, "name"),
-                f"{section}.name = {imperfection.name!r}: it is for the plant "
-                f"{' or '.join(plants)}, the body of {plant!r} makes its own; leave it out",
-            )
+        wrapped = attempt(IMPERFECTIONS, imperfection, section, human=found)
+        if not isinstance(wrapped, Problem) and (reason := wrapped.unsuited(plant, period)):
+            path = ("human", "imperfections", index, "name")
+            wrapped = Problem(path, f"{section}.name = {imperfection.name!r}: {reason}")
+        found = wrapped
     return found
-
-
-def situation_of(scenario: Scenario) -> Situation:
-    """Return what both agents of a scenario know before they start."""
-    return Situation(scenario.world.path, scenario.pace, scenario.bounds, scenario.rates.period)

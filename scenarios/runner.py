@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from cowalk.agents.interfaces import Automation, Belief, Human, Truth
+from cowalk.agents.interfaces import Automation, Belief, Human, Situation, Truth
 from cowalk.agents.registry import AUTOMATIONS
 from cowalk.estimation.smoothing import SMOOTHERS
 from cowalk.sim.env import CowalkEnv
@@ -21,7 +21,7 @@ from cowalk.sim.motion import Array
 
 from .building import build
 from .expectations import judge
-from .humans import build_human, situation_of
+from .humans import build_human
 from .loading import load
 from .metrics import metrics
 from .results import RunResult, Trace, json_ready
@@ -69,7 +69,7 @@ def build_agents(scenario: Scenario) -> tuple[Human, Automation]:
     InputError
         If a name or a parameter is not right.
     """
-    human = build_human(scenario.human, scenario.plant.name)
+    human = build_human(scenario.human, scenario.plant.name, scenario.rates.period)
     smoother = build(SMOOTHERS, scenario.automation.smoother, "automation.smoother")
     automation = build(
         AUTOMATIONS,
@@ -119,7 +119,9 @@ def _episode(
 ) -> tuple[str, str | None]:
     """Step until the end; return how it ended, and the error if that is why."""
     env_seed, human_seed, automation_seed = np.random.SeedSequence(scenario.seed).spawn(3)
-    situation = situation_of(scenario)
+    situation = Situation(
+        scenario.world.path, scenario.pace, scenario.bounds, scenario.rates.period
+    )
     row = _Row(scenario)
     total = env.steps_per_episode
     report_every = scenario.rates.control

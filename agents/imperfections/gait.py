@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
@@ -24,7 +23,7 @@ class GaitRipple(Imperfection):
 
     The defaults are the medians of 110 measured walking trials; their 5 and 95 % are given
     below. They make +- 3 N, as much as the paper's pushes. It ceases with the walk:
-    ``walking = min(|v|/walking_speed, 1)``. For the unicycle plant; on the others the body
+    ``walking = min(|v|/walking_speed, 1)``. For the unicycle plant; in PyBullet the body
     makes it.
 
     Parameters
@@ -47,8 +46,6 @@ class GaitRipple(Imperfection):
         If a sway or the stiffness is negative, or the frequency is not in (0, 4] Hz.
     """
 
-    plants: ClassVar[tuple[str, ...] | None] = ("unicycle",)
-
     step_frequency: float = 1.82
     lateral_sway: float = 0.060
     fore_aft_sway: float = 0.066
@@ -60,6 +57,14 @@ class GaitRipple(Imperfection):
             require(self, name, getattr(self, name) >= 0.0, "must not be negative")
         require(self, "step_frequency", 0.0 < self.step_frequency <= 4.0, "must lie in (0, 4] Hz")
         require(self, "walking_speed", self.walking_speed > 0.0, "must be above 0 m/s")
+
+    def unsuited(self, plant: str, period: float) -> str | None:
+        """See `Imperfection.unsuited`."""
+        if plant == "bullet":
+            return (
+                "gait-ripple is for the unicycle plant; on 'bullet' the body makes it, leave it out"
+            )
+        return None
 
     def reset(self, rng: np.random.Generator, situation: Situation) -> None:
         """See `Human.reset`."""

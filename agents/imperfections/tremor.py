@@ -49,16 +49,22 @@ class Tremor(Imperfection):
         require(self, "share", 0.0 <= self.share <= 1.0, "must lie in [0, 1]")
         require(self, "frequency", 1.0 <= self.frequency <= 30.0, "must lie in [1, 30] Hz")
 
+    def unsuited(self, plant: str, period: float) -> str | None:
+        """See `Imperfection.unsuited`."""
+        rate = 1.0 / period
+        if self.frequency < rate / 2.0:
+            return None
+        return (
+            f"frequency = {self.frequency:g} Hz cannot be in a force decided at {rate:g} Hz, it "
+            f"would alias to {abs(rate - self.frequency):g} Hz; stay below {rate / 2.0:g} Hz or "
+            f"set rates.control above {2.0 * self.frequency:g}"
+        )
+
     def reset(self, rng: np.random.Generator, situation: Situation) -> None:
         """See `Human.reset`."""
         super().reset(rng, situation)
-        rate = 1.0 / situation.period
-        if self.frequency >= rate / 2.0:
-            raise InputError(
-                f"tremor: frequency = {self.frequency:g} Hz cannot be in a force decided at "
-                f"{rate:g} Hz, it would alias to {abs(rate - self.frequency):g} Hz; stay below "
-                f"{rate / 2.0:g} Hz or set rates.control above {2.0 * self.frequency:g}"
-            )
+        if reason := self.unsuited("", situation.period):
+            raise InputError(f"tremor: {reason}")
         self._advance = 2.0 * np.pi * self.frequency * situation.period
         self._phase: Array | None = None
         self._count = 0

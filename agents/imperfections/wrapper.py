@@ -28,13 +28,10 @@ class Imperfection(ABC):
 
     Attributes
     ----------
-    plants : tuple of str or None
-        Plants on which this imperfection may be used; None is all.
     demonstration : (float, float)
         Duration in s and force in N that show this imperfection well, for figures.
     """
 
-    plants: ClassVar[tuple[str, ...] | None] = None
     demonstration: ClassVar[tuple[float, float]] = (8.0, 10.0)
 
     human: Human
@@ -43,6 +40,18 @@ class Imperfection(ABC):
     def closed_loop(self) -> bool:
         """Whether the force answers the base's motion: as of the human inside."""
         return getattr(self.human, "closed_loop", True)
+
+    def unsuited(self, plant: str, period: float) -> str | None:
+        """Return why this imperfection cannot be used in a scenario, None if it can.
+
+        Parameters
+        ----------
+        plant : str
+            Name of the plant.
+        period : float
+            Control period, s.
+        """
+        return None
 
     @abstractmethod
     def distort(self, force: Array, observation: Observation) -> Array:
