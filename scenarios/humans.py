@@ -27,7 +27,7 @@ def build_human(component: HumanComponent, plant: str, period: float) -> Human:
     InputError
         If a name or a parameter is not right; the first fault, in one line.
     """
-    found = attempt_human(component, plant)
+    found = attempt_human(component, plant, period)
     if isinstance(found, Problem):
         raise InputError(found.message)
     return found
