@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from cowalk.sim.motion import Array
 
@@ -28,19 +29,20 @@ class Elementwise:
     parts : callable
         From an array of shape (..., n) to n values.
     pair : callable
-        From two values to an array of shape (..., 2).
+        ``pair(like, a, b)``: two values as an array of shape (..., 2), the leading axes being
+        those of the array ``like``.
     where : callable
         ``where(condition, a, b)``; all three are evaluated.
-    sin, cos, sqrt, atan2, minimum, maximum : callable
+    exp, sin, cos, sqrt, minimum, maximum : callable
     """
 
     parts: Callable[[Array], Any]
-    pair: Callable[[Value, Value], Array]
+    pair: Callable[[Array, Value, Value], Array]
     where: Callable[[Any, Any, Any], Any]
+    exp: Callable[[Value], Value]
     sin: Callable[[Value], Value]
     cos: Callable[[Value], Value]
     sqrt: Callable[[Value], Value]
-    atan2: Callable[[Value, Value], Value]
     minimum: Callable[[Value, Value], Value]
     maximum: Callable[[Value, Value], Value]
 
@@ -49,20 +51,20 @@ class Elementwise:
         return self.minimum(self.maximum(value, low), high)
 
 
-def _stack(first: Value, second: Value) -> Array:
-    out = np.empty((*np.broadcast_shapes(np.shape(first), np.shape(second)), 2))
+def _stack(like: Array, first: Value, second: Value) -> Array:
+    out = np.empty((*like.shape[:-1], 2))
     out[..., 0], out[..., 1] = first, second
     return out
 
 
 FLOATS = Elementwise(
     parts=lambda array: array.tolist(),
-    pair=lambda first, second: np.array((first, second)),
+    pair=lambda like, first, second: np.array((first, second)),
     where=lambda condition, a, b: a if condition else b,
+    exp=math.exp,
     sin=math.sin,
     cos=math.cos,
     sqrt=math.sqrt,
-    atan2=math.atan2,
     minimum=min,
     maximum=max,
 )
@@ -70,15 +72,22 @@ ARRAYS = Elementwise(
     parts=lambda array: np.moveaxis(array, -1, 0),
     pair=_stack,
     where=np.where,
+    exp=np.exp,
     sin=np.sin,
     cos=np.cos,
     sqrt=np.sqrt,
-    atan2=np.arctan2,
     minimum=np.minimum,
     maximum=np.maximum,
 )
 
 
-def elementwise(pose: Array) -> Elementwise:
-    """Return the functions for a pose of one human, shape (3,), or of a batch, (..., 3)."""
-    return FLOATS if pose.ndim == 1 else ARRAYS
+def elementwise(array: Array) -> Elementwise:
+    """Return the functions for an array of one human, shape (n,), or of a batch, (..., n)."""
+    return FLOATS if array.ndim == 1 else ARRAYS
+
+
+def components(array: ArrayLike) -> tuple[Value, Value]:
+    """Return the two values of an array of shape (..., 2)."""
+    values = np.asarray(array, dtype=float)
+    first, second = elementwise(values).parts(values)
+    return first, second

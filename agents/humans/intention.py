@@ -5,13 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NamedTuple
 
-import numpy as np
-
 from cowalk.agents.interfaces import Observation, Situation
 from cowalk.sim.errors import InputError
 from cowalk.sim.motion import Array, Path
 
-from .elementwise import FLOATS, Elementwise, Value, elementwise
+from .elementwise import FLOATS, Elementwise, Value, components, elementwise
 from .route import Route, Triple
 
 
@@ -147,10 +145,8 @@ class Intention:
     def __init__(self, settings: IntentionSettings, situation: Situation) -> None:
         self._settings = settings
         self._pace: Value = situation.pace if settings.pace is None else settings.pace
-        self._lower, self._upper = (
-            tuple(FLOATS.parts(bound)) if bound.ndim == 1 else (bound[..., 0], bound[..., 1])
-            for bound in map(np.asarray, (situation.bounds.lower, situation.bounds.upper))
-        )
+        self._lower = components(situation.bounds.lower)
+        self._upper = components(situation.bounds.upper)
         # The observation's poses refer to the scenario's path: None stands for it.
         self._known = Route(situation.path)
         self._routes = [None if settings.path is None else Route(settings.path)]
@@ -164,13 +160,18 @@ class Intention:
 
     def wish(self, observation: Observation) -> Array:
         """Return the wanted twist, m/s and rad/s, shape (..., 2)."""
-        m, pace, _, _, _, ahead, left, _ = self.look(observation)
+        outlook = self.look(observation)
+        return outlook.m.pair(observation["pose"], *self.twist(outlook))
+
+    def twist(self, outlook: Outlook) -> tuple[Value, Value]:
+        """Return the wanted v and omega, m/s and rad/s."""
+        m, pace, ahead, left = outlook.m, outlook.pace, outlook.ahead, outlook.left
         distance = m.sqrt(m.maximum(ahead * ahead + left * left, 1e-12))
         # What lies behind asks for the sharpest turn.
         sine = m.where(ahead < 0.0, m.where(left < 0.0, -1.0, 1.0), left / distance)
         omega = 2.0 * pace * sine / self._settings.lookahead
         (low_v, low_omega), (high_v, high_omega) = self._lower, self._upper
-        return m.pair(m.clip(pace, low_v, high_v), m.clip(omega, low_omega, high_omega))
+        return m.clip(pace, low_v, high_v), m.clip(omega, low_omega, high_omega)
 
     def look(self, observation: Observation) -> Outlook:
         """Return where they want to go from here; changes of mind happen in it."""
