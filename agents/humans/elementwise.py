@@ -69,7 +69,8 @@ FLOATS = Elementwise(
     maximum=max,
 )
 ARRAYS = Elementwise(
-    parts=lambda array: np.moveaxis(array, -1, 0),
+    # Contiguous: a law reads each value many times.
+    parts=lambda array: np.moveaxis(array, -1, 0).copy(),
     pair=_stack,
     where=np.where,
     exp=np.exp,

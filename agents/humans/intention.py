@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import NamedTuple
+
+import numpy as np
 
 from cowalk.agents.interfaces import Observation, Situation
 from cowalk.sim.errors import InputError
@@ -168,7 +171,7 @@ class Intention:
         m, pace, ahead, left = outlook.m, outlook.pace, outlook.ahead, outlook.left
         distance = m.sqrt(m.maximum(ahead * ahead + left * left, 1e-12))
         # What lies behind asks for the sharpest turn.
-        sine = m.where(ahead < 0.0, m.where(left < 0.0, -1.0, 1.0), left / distance)
+        sine = left / m.where(ahead < 0.0, abs(left) + 1e-12, distance)
         omega = 2.0 * pace * sine / self._settings.lookahead
         (low_v, low_omega), (high_v, high_omega) = self._lower, self._upper
         return m.clip(pace, low_v, high_v), m.clip(omega, low_omega, high_omega)
@@ -216,33 +219,35 @@ class Intention:
         else:
             relative = route.relative(m, self._known.absolute(m, known))
         _, offset, heading = relative
-        aim = self._around(m, offset, heading, obstacles) if obstacles else 0.0
-        ahead, left = route.towards(m, relative, self._settings.lookahead, aim)
+        axis = m.cos(heading), m.sin(heading)
+        aim = self._around(m, offset, axis, obstacles) if obstacles else 0.0
+        ahead, left = route.towards(m, relative, axis, self._settings.lookahead, aim)
         return offset, heading, aim, ahead, left
 
     def _around(
-        self, m: Elementwise, offset: Value, heading: Value, obstacles: list[Value]
+        self, m: Elementwise, offset: Value, axis: tuple[Value, Value], obstacles: list[Value]
     ) -> Value:
         """Return the offset from the path that clears the nearest obstacle in the way, m."""
         settings = self._settings
         left, right = settings.extent
         behind = max(left, right)
-        cos, sin = m.cos(heading), m.sin(heading)
-        aim, nearest = 0.0, float("inf")
+        cos, sin = axis
+        aim, nearest = 0.0, math.inf
         for present, x, y, radius in obstacles:
             along = cos * x - sin * y
-            across = offset + sin * x + cos * y
-            pass_left = across + radius + settings.margin + right
-            pass_right = across - radius - settings.margin - left
+            across = sin * x + cos * y + offset
+            reach = radius + settings.margin
+            pass_left, pass_right = across + (reach + right), across - (reach + left)
             in_the_way = (
                 (present > 0.0)
-                & (along > -radius - behind)
-                & (along < settings.anticipation + radius)
+                & (along + radius > -behind)
+                & (along - radius < settings.anticipation)
                 & (pass_left > 0.0)
                 & (pass_right < 0.0)
                 & (along < nearest)
             )
-            detour = m.where(abs(pass_left) <= abs(pass_right), pass_left, pass_right)
+            # Both detours are open: left is not the longer one.
+            detour = m.where(pass_left + pass_right <= 0.0, pass_left, pass_right)
             aim = m.where(in_the_way, detour, aim)
             nearest = m.where(in_the_way, along, nearest)
         return aim
@@ -252,6 +257,9 @@ def _rows(m: Elementwise, obstacles: Array) -> list[Value]:
     """Return the rows of the obstacles' observation that are in use, 4 values each."""
     if m is FLOATS:
         return [row for row in obstacles.tolist() if row[0]]
-    lanes = tuple(range(obstacles.ndim - 2))
-    used = int((obstacles[..., 0] > 0.0).any(axis=lanes).sum())
-    return [m.parts(obstacles[..., i, :]) for i in range(used)]
+    rows = []
+    for i in range(obstacles.shape[-2]):
+        if not obstacles[..., i, 0].any():
+            break  # rows in use come first
+        rows.append(m.parts(np.ascontiguousarray(obstacles[..., i, :])))
+    return rows

@@ -39,7 +39,12 @@ class Route:
         return found[..., 0], found[..., 1], found[..., 2]
 
     def towards(
-        self, m: Elementwise, relative: Triple, lookahead: float, aim: Value
+        self,
+        m: Elementwise,
+        relative: Triple,
+        axis: tuple[Value, Value],
+        lookahead: float,
+        aim: Value,
     ) -> tuple[Value, Value]:
         """Return where the aimed point lies in base axes: ahead and to the left, m.
 
@@ -48,19 +53,22 @@ class Route:
         m : Elementwise
         relative : (station, offset, heading)
             Pose of the base against this path: m, m, rad.
+        axis : (float or ndarray, float or ndarray)
+            Cosine and sine of the heading.
         lookahead : float
             Distance along the path at which they aim, m.
         aim : float or ndarray, shape (...)
             Offset from the path that they aim for, m.
         """
-        station, offset, heading = relative
+        station, offset, _ = relative
+        cos, sin = axis
         if self._straight:
-            dx, dy, theta = lookahead, aim - offset, heading
+            dx, dy = lookahead, aim - offset
         else:
             x, y, theta = self.absolute(m, relative)
             there_x, there_y, _ = self.absolute(m, (station + lookahead, aim, 0.0))
             dx, dy = there_x - x, there_y - y
-        cos, sin = m.cos(theta), m.sin(theta)
+            cos, sin = m.cos(theta), m.sin(theta)
         return cos * dx + sin * dy, cos * dy - sin * dx
 
 
