@@ -189,7 +189,7 @@ def test_fatigue_follows_the_published_equations_with_their_activation_drive(mus
         )
 
     times = np.arange(1, 241) * 1.0
-    published = solve_ivp(change, (0.0, 240.0), (1.0, 0.0, 0.0), t_eval=times, max_step=0.05)
+    published = solve_ivp(change, (0.0, 240.0), (1.0, 0.0, 0.0), "LSODA", times, max_step=0.5)
     ours = play(Fatigue(Pushing([[load * 60.0, 0.0]]), muscle=muscle), 4801)[20::20, 0] / 60.0
     np.testing.assert_allclose(ours, published.y[1], atol=0.01)
 
