@@ -13,6 +13,13 @@ HUMANS: Registry[Human] = Registry(
         "open-loop": "cowalk.agents.humans.open_loop:OpenLoopHuman",
         "steady": "cowalk.agents.humans.steady:SteadyHuman",
         "escalating": "cowalk.agents.humans.escalating:EscalatingHuman",
+        "conceding": "cowalk.agents.humans.conceding:ConcedingHuman",
+        "tit-for-tat": "cowalk.agents.humans.tit_for_tat:TitForTatHuman",
+        "slacking": "cowalk.agents.humans.slacking:SlackingHuman",
+        "bounded-memory": "cowalk.agents.humans.bounded_memory:BoundedMemoryHuman",
+        "impedance": "cowalk.agents.humans.impedance:ImpedanceHuman",
+        "crossover": "cowalk.agents.humans.crossover:CrossoverHuman",
+        "game": "cowalk.agents.humans.game:GameHuman",
     },
     "cowalk.humans",
 )

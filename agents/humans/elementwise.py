@@ -33,7 +33,7 @@ class Elementwise:
         those of the array ``like``.
     where : callable
         ``where(condition, a, b)``; all three are evaluated.
-    exp, sin, cos, sqrt, minimum, maximum : callable
+    exp, sin, cos, atan2, sqrt, minimum, maximum : callable
     """
 
     parts: Callable[[Array], Any]
@@ -42,6 +42,7 @@ class Elementwise:
     exp: Callable[[Value], Value]
     sin: Callable[[Value], Value]
     cos: Callable[[Value], Value]
+    atan2: Callable[[Value, Value], Value]
     sqrt: Callable[[Value], Value]
     minimum: Callable[[Value, Value], Value]
     maximum: Callable[[Value, Value], Value]
@@ -64,6 +65,7 @@ FLOATS = Elementwise(
     exp=math.exp,
     sin=math.sin,
     cos=math.cos,
+    atan2=math.atan2,
     sqrt=math.sqrt,
     minimum=min,
     maximum=max,
@@ -76,6 +78,7 @@ ARRAYS = Elementwise(
     exp=np.exp,
     sin=np.sin,
     cos=np.cos,
+    atan2=np.arctan2,
     sqrt=np.sqrt,
     minimum=np.minimum,
     maximum=np.maximum,
