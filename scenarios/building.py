@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import inspect
 from collections.abc import Callable, Collection
+from functools import lru_cache
 from typing import Any, TypeVar, get_type_hints
 
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, create_model
@@ -120,7 +121,7 @@ def _prepare(
         if name in shared
     ]
     given = {name: value for name, value in component.parameters.items() if name not in shared}
-    accepts, names = _parameter_model(constructor, shared)
+    accepts, names = _parameter_model(constructor, tuple(shared))
     model, faults = validate(accepts, given, at)
     if model is None:
         return constructor, {}, [*problems, *faults]
@@ -144,8 +145,9 @@ def _accepted(constructor: Callable[..., Any]) -> dict[str, inspect.Parameter]:
     return {name: item for name, item in parameters.items() if item.kind in _KEYWORDS}
 
 
+@lru_cache
 def _parameter_model(
-    constructor: Callable[..., Any], shared: Collection[str]
+    constructor: Callable[..., Any], shared: tuple[str, ...]
 ) -> tuple[type[BaseModel], dict[str, str]]:
     """Return a model of the constructor's parameters, and which of them each field stands for.
 

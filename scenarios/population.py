@@ -12,12 +12,11 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 from cowalk.agents.imperfections.wrapper import Imperfection
-from cowalk.agents.registry import HUMANS, IMPERFECTIONS
+from cowalk.agents.registry import IMPERFECTIONS
 from cowalk.sim.errors import InputError
 from cowalk.sim.plant import Rates
 from cowalk.sim.registry import did_you_mean
 
-from .building import check_parameters
 from .distribution import KEY, Distribution
 from .documents import Document, KeyPath, Problem, parse
 from .humans import attempt_human
@@ -239,11 +238,5 @@ def _human_problems(section: dict[str, Any]) -> list[Problem]:
     component, problems = validate(HumanComponent, section, ("human",))
     if component is None:
         return problems
-    problems = check_parameters(HUMANS, component, "human", ("intention",))
-    for index, item in enumerate(component.imperfections):
-        where = f"human.imperfections.{index}"
-        problems += check_parameters(IMPERFECTIONS, item, where, ("human",))
-    if not problems:
-        built = attempt_human(component, "unicycle", _RATES.period)
-        problems += [built] if isinstance(built, Problem) else []
-    return problems
+    built = attempt_human(component, "unicycle", _RATES.period)
+    return [built] if isinstance(built, Problem) else []
