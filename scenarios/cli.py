@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from . import cli_studies
+from . import cli_humans, cli_studies
 from .cli_output import BAD_INPUT, FAILED, PASSED, complain, emit_json, emit_table, progress_bar
 
 if TYPE_CHECKING:
@@ -219,6 +219,7 @@ def check(
     return code
 
 
+cli_humans.register(app)
 cli_studies.register(app)
 
 
