@@ -65,7 +65,7 @@ def answer(
         Seed of the human's generator.
     """
     steps = round(duration / SITUATION.period)
-    time = np.arange(steps) * SITUATION.period
+    time = SITUATION.period * np.arange(steps, dtype=float)
     force, stubbornness = np.empty((steps, 2)), np.empty((steps, 2))
     human.reset(np.random.default_rng(seed), SITUATION)
     follow = -np.expm1(-SITUATION.period / RESPONSE)

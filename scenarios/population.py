@@ -217,7 +217,7 @@ def _group_problems(section: dict[str, Any]) -> list[Problem]:
     if problems:
         return problems
     medians = {path: law.at(0.5) for path, law in laws.items()}
-    trials = [((), medians)]
+    trials: list[tuple[KeyPath, dict[KeyPath, float]]] = [((), medians)]
     trials += [(path, medians | {path: end}) for path, law in laws.items() for end in law.ends]
     for path, values in trials:
         human = _filled(section, values)
