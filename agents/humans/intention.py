@@ -192,7 +192,8 @@ class Intention:
                 other = self._follow(m, route, known, obstacles)
                 on_it = self._route == i
                 seen = tuple(m.where(on_it, b, a) for a, b in zip(seen, other, strict=True))
-        return Outlook(m, self._pace, *seen, self._route)
+        offset, heading, aim, ahead, left = seen
+        return Outlook(m, self._pace, offset, heading, aim, ahead, left, self._route)
 
     def _change_mind(self, m: Elementwise, time: Array, station: Value) -> None:
         (now,) = m.parts(time)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.linalg import solve_continuous_are
 
@@ -29,7 +29,7 @@ def test_minimum_jerk_starts_and_ends_at_rest_and_peaks_at_15_eighths():
 
 def test_the_hand_pulls_along_a_minimum_jerk_profile(situation, observe):
     """Held where it is, the base shows the spring and damper of the whole movement sideways."""
-    K, B, T, puddle = 60.0, 5.0, 3.0, ((3.0, -0.7, 0.35),)  # noqa: N806
+    K, B, T, puddle = 60.0, 5.0, 3.0, ((3.0, -0.7, 0.35),)
     human = ImpedanceHuman(stiffness=K, damping=B, duration=T, force_max=(100.0, 100.0))
     human.reset(NO_RNG, situation)
     forces = [human.act(observe(twist=(0.8, 0.0), obstacles=puddle))[1] for _ in range(101)]
@@ -134,6 +134,7 @@ def test_the_regulator_of_a_double_integrator_is_the_textbooks():
     np.testing.assert_allclose(answer, [1.0, np.sqrt(3.0)])
 
 
+@settings(max_examples=40, deadline=None)
 @given(gains, gains, weights, weights, weights, st.floats(0.5, 4.0))
 def test_the_closed_form_solves_the_riccati_equation(l1, l2, q1, q2, r, steering):
     answer = best_answer(FLOATS, (l1, l2), (q1, q2), r, steering)
@@ -161,7 +162,7 @@ def play_with(partner, situation, observe, **parameters):
     """Let a partner with a law of their own and a game human turn one base; return the human."""
     human = GameHuman(force_max=(100.0, 100.0), **parameters)
     human.reset(NO_RNG, situation)
-    T, steering = situation.period, human.steering  # noqa: N806
+    T, steering = situation.period, human.steering
     heading, rate = 0.3, 0.0
     for k in range(4000):
         if k % 60 == 0:  # something pushes them off, or there would be nothing to learn
