@@ -6,8 +6,6 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-import numpy as np
-
 from cowalk.agents.interfaces import Observation, Situation
 from cowalk.sim.errors import InputError
 from cowalk.sim.motion import Array, Path
@@ -262,5 +260,5 @@ def _rows(m: Elementwise, obstacles: Array) -> list[Value]:
     for i in range(obstacles.shape[-2]):
         if not obstacles[..., i, 0].any():
             break  # rows in use come first
-        rows.append(m.parts(np.ascontiguousarray(obstacles[..., i, :])))
+        rows.append(m.parts(obstacles[..., i, :]))
     return rows
