@@ -20,6 +20,7 @@ HUMANS: Registry[Human] = Registry(
         "impedance": "cowalk.agents.humans.impedance:ImpedanceHuman",
         "crossover": "cowalk.agents.humans.crossover:CrossoverHuman",
         "game": "cowalk.agents.humans.game:GameHuman",
+        "recorded": "cowalk.agents.humans.recorded:RecordedHuman",
     },
     "cowalk.humans",
 )

@@ -5,9 +5,9 @@ from __future__ import annotations
 from rich.console import Console
 from rich.table import Table
 
-from . import closed_loop
+from . import closed_loop, humans
 
-SUBJECTS = {"closed loop": closed_loop.measure}
+SUBJECTS = {"closed loop": closed_loop.measure, "human models": humans.measure}
 
 
 def main() -> None:

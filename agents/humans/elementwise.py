@@ -71,8 +71,8 @@ FLOATS = Elementwise(
     maximum=max,
 )
 ARRAYS = Elementwise(
-    # Contiguous: a law reads each value many times.
-    parts=lambda array: np.moveaxis(array, -1, 0).copy(),
+    # Contiguous, since a law reads each value many times.
+    parts=lambda array: [array[..., i].copy() for i in range(array.shape[-1])],
     pair=_stack,
     where=np.where,
     exp=np.exp,

@@ -127,7 +127,7 @@ class GameHuman(LinearHuman):
         push = (now[1] - before[1]) / (self.steering * self.period) - self._pushed[i]
         surprise = push + position * before[0] + rate * before[1]
         size = _QUIET + before[0] * before[0] + before[1] * before[1]
-        step = self.observer_rate * self.period * surprise / size
+        step = min(self.observer_rate * self.period, 1.0) * surprise / size
         self._partner[i] = (
             m.clip(position - step * before[0], -_LARGEST_GAIN, _LARGEST_GAIN),
             m.clip(rate - step * before[1], -_LARGEST_GAIN, _LARGEST_GAIN),

@@ -61,9 +61,9 @@ class ImpedanceHuman(LinearHuman):
     """
 
     stiffness: float = 50.0
-    damping: float = 10.0
+    damping: float = 15.0
     duration: float = 4.0
-    lever: float = 1.0
+    lever: float = 1.6
     reach: float = 0.1
 
     def __post_init__(self) -> None:
@@ -100,8 +100,8 @@ class ImpedanceHuman(LinearHuman):
         """Return offset and sideways speed of x_d, m and m/s; a new aim starts a new movement."""
         m, aim = outlook.m, outlook.aim
         if self._goal is None:
-            self._goal, self._start, self._share = aim + 0.0 * point, point, 0.0 * point
-        progress, speed = minimum_jerk(self._share)
+            self._goal, self._start, self._elapsed = aim + 0.0 * point, point, 0.0 * point
+        progress, speed = minimum_jerk(self._elapsed)
         length = self._goal - self._start
         intended = self._start + length * progress
         turned = outlook.route != self._route
@@ -111,8 +111,8 @@ class ImpedanceHuman(LinearHuman):
         speed = m.where(again, 0.0, length * speed / self.duration)
         self._goal = m.where(again, aim, self._goal)
         self._route = outlook.route
-        share = m.where(again, 0.0, self._share)
-        self._share = m.minimum(share + self.period / self.duration, 1.0)
+        share = m.where(again, 0.0, self._elapsed)
+        self._elapsed = m.minimum(share + self.period / self.duration, 1.0)
         return intended, speed
 
 

@@ -6,8 +6,6 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-import numpy as np
-
 from cowalk.agents.interfaces import Observation, Situation
 from cowalk.sim.errors import InputError
 from cowalk.sim.motion import Array, Path
@@ -192,7 +190,8 @@ class Intention:
                 other = self._follow(m, route, known, obstacles)
                 on_it = self._route == i
                 seen = tuple(m.where(on_it, b, a) for a, b in zip(seen, other, strict=True))
-        return Outlook(m, self._pace, *seen, self._route)
+        offset, heading, aim, ahead, left = seen
+        return Outlook(m, self._pace, offset, heading, aim, ahead, left, self._route)
 
     def _change_mind(self, m: Elementwise, time: Array, station: Value) -> None:
         (now,) = m.parts(time)
@@ -261,5 +260,5 @@ def _rows(m: Elementwise, obstacles: Array) -> list[Value]:
     for i in range(obstacles.shape[-2]):
         if not obstacles[..., i, 0].any():
             break  # rows in use come first
-        rows.append(m.parts(np.ascontiguousarray(obstacles[..., i, :])))
+        rows.append(m.parts(obstacles[..., i, :]))
     return rows

@@ -5,8 +5,10 @@ the distance from it, F = D (p_0 - p_executed). Beside the common definition,
 
     F = F_max sat(gain * s * (p_H - p_executed) / p_ub),
 
-that is a human with p_H = p_0 and s = D p_ub / (gain * F_max). Who would push harder than
-s = 1 allows insists fully, on a wish that lies as much farther off (docs/humans.md).
+that is a human with p_H = p_0 and s = D p_ub / (gain * F_max), as long as p_0 is a twist that
+the bounds allow and s is at most 1. A wish beyond the bounds is the wish for the bound, held
+so much more stubbornly that the force is the same; who would push harder than s = 1 allows
+insists fully, on a wish that lies as much farther off (docs/humans.md).
 """
 
 from __future__ import annotations
@@ -14,10 +16,12 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import dataclass
 
-from cowalk.agents.interfaces import Observation
+import numpy as np
+
+from cowalk.agents.interfaces import Observation, Situation
 
 from .demand import DemandingHuman
-from .elementwise import Elementwise, Value
+from .elementwise import Elementwise, Value, components
 from .intention import Outlook
 
 
@@ -39,19 +43,32 @@ class LinearHuman(DemandingHuman):
     def slope(self, i: int) -> Value:
         """Return D, force for each unit of v (i = 0, N s/m) or of omega (i = 1, N s/rad)."""
 
+    def reset(self, rng: np.random.Generator, situation: Situation) -> None:
+        """See `Human.reset`."""
+        super().reset(rng, situation)
+        self._lower = components(situation.bounds.lower)
+        self._share: list[Value] = [0.0, 0.0]
+
     def wish(self, outlook: Outlook, observation: Observation) -> tuple[Value, Value]:
         """See `DemandingHuman.wish`."""
-        m = outlook.m
-        content_v, content_omega = self.content(outlook, observation)
-        v, omega = self._executed
-        return (
-            v + m.maximum(self._level(0), 1.0) * (content_v - v),
-            omega + m.maximum(self._level(1), 1.0) * (content_omega - omega),
-        )
+        v, omega = self.content(outlook, observation)
+        return self._equivalent(outlook.m, 0, v), self._equivalent(outlook.m, 1, omega)
 
     def stubbornness(self, m: Elementwise, i: int, disagreement: Value) -> Value:
         """See `DemandingHuman.stubbornness`."""
-        return m.minimum(self._level(i), 1.0)
+        return self._share[i]
 
-    def _level(self, i: int) -> Value:
-        return self.slope(i) * self._upper[i] / (self.gain * self.force_max[i])
+    def _equivalent(self, m: Elementwise, i: int, content: Value) -> Value:
+        """Return the wish, and keep the stubbornness, of the same force by the definition."""
+        executed = self._executed[i]
+        level = self.slope(i) * self._upper[i] / (self.gain * self.force_max[i])
+        missing = content - executed
+        allowed = m.clip(content, self._lower[i], self._upper[i]) - executed
+        beyond = abs(missing) > abs(allowed)
+        raised = level * abs(missing) / (abs(allowed) + _TINY)
+        self._share[i] = m.minimum(m.where(beyond, raised, level), 1.0)
+        return executed + level * missing / self._share[i]
+
+
+_TINY = 1e-12
+"""Keeps a division finite where the executed twist is at its bound already."""
