@@ -43,6 +43,22 @@ def register(app: typer.Typer) -> None:
     app.add_typer(humans, name="humans")
 
 
+def agent_faults(address: str) -> list[str]:
+    """Return every fault of a human or an automation given as ``module:Class``.
+
+    Raises
+    ------
+    InputError
+        If it cannot be imported.
+    """
+    from cowalk.agents.checks import automation_problems, human_problems
+    from cowalk.agents.registry import HUMANS
+
+    part = HUMANS.get(address)
+    problems = automation_problems if hasattr(part, "belief") else human_problems
+    return [f"{address}: {problem}" for problem in problems(part)]
+
+
 def sample(
     population: Annotated[
         str, typer.Argument(metavar="POPULATION", help="Name of one that ships, or a YAML file.")

@@ -109,12 +109,20 @@ def settled_stubbornness(
     ndarray, shape (n, 2)
         In v and in omega, in [0, 1].
     """
-    found = np.empty((len(concessions), seeds, 2))
+    drawing = draws(human)
+    settled = np.zeros((len(concessions), 2))
     for i, concession in enumerate(concessions):
-        for seed in range(seeds):
+        for seed in range(seeds if drawing else 1):
             shares = answer(human, float(concession), duration, held=True, seed=seed).stubbornness
-            found[i, seed] = shares[-len(shares) // 3 :].mean(axis=0)
-    return np.asarray(found.mean(axis=1))
+            settled[i] += shares[-len(shares) // 3 :].mean(axis=0)
+    return settled / (seeds if drawing else 1)
+
+
+def draws(human: Human) -> bool:
+    """Return whether another generator makes a human act or want otherwise."""
+    first, second = (answer(human, 0.5, 10.0, seed=seed) for seed in (0, 1))
+    same = np.array_equal(first.force, second.force)
+    return not (same and np.array_equal(first.stubbornness, second.stubbornness))
 
 
 def fixed_points(concessions: Array, stubbornness: Array) -> list[float]:

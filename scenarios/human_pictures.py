@@ -11,7 +11,7 @@ from cowalk.agents.imperfections.wrapper import Imperfection
 from cowalk.sim.errors import InputError
 
 from .figures_humans import draw_human, draw_imperfection
-from .human_answers import SITUATION, answer, push
+from .human_answers import SITUATION, answer, draws, push
 from .humans import build_human
 from .overrides import expand_names, override
 from .results import writable_folder
@@ -102,10 +102,13 @@ def show_imperfections(
     profile = push(duration, force)
     pushing = component.model_copy(update={"parameters": {"profile": profile}})
     hand = build_human(pushing, PLANT, SITUATION.period)
-    given = [answer(hand, 0.0, duration, seed=seed).force for seed in range(RUNS)]
+    seeds = range(RUNS if draws(hand) else 1)
+    given = [answer(hand, 0.0, duration, seed=seed).force for seed in seeds]
     asked = np.array(profile)[:, 1:]
     writable_folder(file.parent)
-    title = f"{_listed(component)}; thin: {RUNS - 1} other seeds"
+    title = _listed(component)
+    if len(given) > 1:
+        title += f"; thin: {len(given) - 1} other seeds"
     draw_imperfection(np.array(profile)[:, 0], asked, given, title, file)
     return float(np.abs(given[0] - asked).max())
 

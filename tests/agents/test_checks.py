@@ -165,8 +165,8 @@ def test_all_faults_are_listed_at_once():
 
 
 @pytest.mark.parametrize("name", HUMANS.names())
-def test_every_human_that_ships_passes(name):
-    assert human_problems(HUMANS.get(name)()) == []
+def test_every_human_that_ships_passes(name, new_human):
+    assert human_problems(new_human(name)) == []
 
 
 class Follower:
