@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cowalk.agents.humans.intention import ChangeOfMind, Intention, IntentionSettings
@@ -18,9 +18,9 @@ CORRIDOR = Situation(
 SIDE_CORRIDOR = Path(((0.0, 0.0), (8.0, 0.0), (8.0, 20.0)))
 
 
-def walk_alone(settings, obstacles_world=(), start=(0.0, 0.0, 0.0), steps=500, situation=CORRIDOR):
+def walk_alone(wanted, obstacles_world=(), start=(0.0, 0.0, 0.0), steps=500, situation=CORRIDOR):
     """Let the intention alone steer a unicycle; return its poses and twists."""
-    intention = Intention(settings, situation)
+    intention = Intention(wanted, situation)
     pose, poses, twists = np.array(start), [], []
     for k in range(steps):
         rows = np.zeros((8, 4))
@@ -29,7 +29,7 @@ def walk_alone(settings, obstacles_world=(), start=(0.0, 0.0, 0.0), steps=500, s
             dx, dy = x - pose[0], y - pose[1]
             rows[i] = [1.0, cos * dx + sin * dy, cos * dy - sin * dx, radius]
         seen = {
-            "pose": situation.path.relative_pose(pose),
+            "pose": np.array(situation.path.relative(*pose)),
             "obstacles": rows,
             "time": np.array([k * situation.period]),
         }
@@ -40,6 +40,7 @@ def walk_alone(settings, obstacles_world=(), start=(0.0, 0.0, 0.0), steps=500, s
     return np.array(poses), np.array(twists)
 
 
+@settings(max_examples=25, deadline=None)
 @given(st.floats(-1.0, 1.0), st.floats(-0.8, 0.8))
 def test_an_intention_alone_returns_to_the_path(offset, heading):
     poses, _ = walk_alone(IntentionSettings(), start=(0.0, offset, heading))
