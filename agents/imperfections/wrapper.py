@@ -41,6 +41,11 @@ class Imperfection(ABC):
         """Whether the force answers the base's motion: as of the human inside."""
         return getattr(self.human, "closed_loop", True)
 
+    @property
+    def broadcasts(self) -> bool:
+        """Whether batches of humans are possible: as of the human inside."""
+        return getattr(self.human, "broadcasts", True)
+
     def unsuited(self, plant: str, period: float) -> str | None:
         """Return why this imperfection cannot be used in a scenario, None if it can.
 
