@@ -90,7 +90,7 @@ def load(source: str | Path, overrides: Sequence[str] = ()) -> Scenario:
         If the file or an override is not right: the first fault, in one line.
     """
     file = find(source)
-    document = _read(file)
+    document = read_document(file)
     expand_names(document.data)
     overridden: dict[KeyPath, str] = {}
     if isinstance(document.data, dict) and not document.problems:
@@ -123,7 +123,7 @@ def faults(file: str | Path) -> list[Fault]:
     InputError
         If the file cannot be read.
     """
-    document = _read(Path(file))
+    document = read_document(Path(file))
     expand_names(document.data)
     found = [
         Fault(Path(file), document.line(problem.path), dotted(problem.path), problem.message)
@@ -132,7 +132,14 @@ def faults(file: str | Path) -> list[Fault]:
     return sorted(found, key=lambda fault: fault.line)
 
 
-def _read(file: Path) -> Document:
+def read_document(file: Path) -> Document:
+    """Return the document that a file holds.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read.
+    """
     try:
         return parse(file.read_text(encoding="utf-8"))
     except OSError as error:

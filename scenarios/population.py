@@ -18,8 +18,9 @@ from cowalk.sim.plant import Rates
 from cowalk.sim.registry import did_you_mean
 
 from .distribution import KEY, Distribution
-from .documents import Document, KeyPath, Problem, parse
+from .documents import Document, KeyPath, Problem
 from .humans import attempt_human
+from .loading import read_document
 from .overrides import expand_names
 from .schema import HumanComponent
 from .wording import validate
@@ -169,15 +170,10 @@ def load_population(source: str | Path) -> Population:
     """
     known = population_library()
     file = known.get(str(source), Path(source))
-    try:
-        document = parse(file.read_text(encoding="utf-8"))
-    except OSError as error:
+    if not file.is_file():
         names = did_you_mean(str(source), list(known))
-        raise InputError(
-            f"unknown population {str(source)!r}; {names}, or the path of a YAML file"
-        ) from error
-    except UnicodeDecodeError as error:
-        raise InputError(f"{file}: this is not text in UTF-8; is it a YAML file?") from error
+        raise InputError(f"unknown population {str(source)!r}; {names}, or the path of a YAML file")
+    document = read_document(file)
     population, problems = _check(document)
     if problems or population is None:
         first = min(problems, key=lambda problem: document.line(problem.path))

@@ -1,5 +1,7 @@
 """Each imperfection alone, against the number that is published or follows from its law."""
 
+import pathlib
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -259,3 +261,9 @@ def test_a_parameter_out_of_range_is_named(name):
     (parameter, value), *_ = BAD[name].items()
     with pytest.raises(InputError, match=f"{parameter} = {value}"):
         IMPERFECTIONS.get(name)(Pushing([[0.0, 0.0]]), **{parameter: value})
+
+
+@pytest.mark.parametrize("name", IMPERFECTIONS.names())
+def test_every_imperfection_is_explained(name):
+    page = (pathlib.Path(__file__).parents[2] / "docs" / "humans.md").read_text(encoding="utf-8")
+    assert f"| `{name}` |" in page

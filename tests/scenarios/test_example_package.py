@@ -50,6 +50,13 @@ def test_the_module_takes_less_than_thirty_lines():
     assert len(text.splitlines()) < 30
 
 
+def test_the_documents_show_the_package_as_it_is():
+    page = (EXAMPLE.parents[1] / "humans.md").read_text(encoding="utf-8")
+    assert f"```python\n{(EXAMPLE / 'hesitant_human.py').read_text()}```" in page
+    points = (EXAMPLE / "pyproject.toml").read_text().partition("[project.entry-points")[2]
+    assert f"[project.entry-points{points.partition('[tool')[0].rstrip()}\n```" in page
+
+
 def test_the_new_human_is_found_by_name_and_runs_in_a_scenario(installed):
     program = (
         "from cowalk.agents import HUMANS, check_human\n"

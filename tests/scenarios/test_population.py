@@ -1,5 +1,8 @@
 """Populations: what ships, what is drawn, and what is said of a faulty file."""
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 import yaml
@@ -152,3 +155,9 @@ def test_a_discrete_distribution_gives_whole_numbers():
     assert drawn == [1, 1, 2, 3, 3]
     assert all(isinstance(value, int) for value in drawn)
     assert law.ends == (1, 3)
+
+
+def test_the_population_in_the_documents_loads_as_printed(example):
+    page = (Path(__file__).parents[2] / "docs" / "humans.md").read_text(encoding="utf-8")
+    (text,) = re.findall(r"```yaml\n(name: .*?groups:.*?)```", page, re.DOTALL)
+    assert {person.name for person in example(text).draw(20)} == {"steady", "escalating"}
