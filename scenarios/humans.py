@@ -41,8 +41,14 @@ def attempt_human(component: HumanComponent, plant: str, period: float) -> Human
             break
         section = f"human.imperfections.{index}"
         wrapped = attempt(IMPERFECTIONS, imperfection, section, human=found)
-        if not isinstance(wrapped, Problem) and (reason := wrapped.unsuited(plant, period)):
+        if not isinstance(wrapped, Problem) and (reason := unsuited(wrapped, plant, period)):
             path = ("human", "imperfections", index, "name")
             wrapped = Problem(path, f"{section}.name = {imperfection.name!r}: {reason}")
         found = wrapped
     return found
+
+
+def unsuited(imperfection: Human, plant: str, period: float) -> str | None:
+    """Return `Imperfection.unsuited`; a user's wrapper need not have it."""
+    judge = getattr(imperfection, "unsuited", None)
+    return judge(plant, period) if judge else None

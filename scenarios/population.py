@@ -19,7 +19,7 @@ from cowalk.sim.registry import did_you_mean
 
 from .distribution import KEY, Distribution
 from .documents import Document, KeyPath, Problem
-from .humans import attempt_human
+from .humans import attempt_human, unsuited
 from .loading import read_document
 from .overrides import expand_names
 from .schema import HumanComponent
@@ -100,8 +100,10 @@ class Population(BaseModel):
             drawn["imperfections"] = [
                 item
                 for item in drawn["imperfections"]
-                if not wrappers[item["name"]](None, **item.get("parameters", {})).unsuited(
-                    plant, _RATES.period
+                if not unsuited(
+                    wrappers[item["name"]](None, **item.get("parameters", {})),
+                    plant,
+                    _RATES.period,
                 )
             ]
             people.append(HumanComponent.model_validate(drawn))

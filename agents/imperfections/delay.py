@@ -52,8 +52,8 @@ class ReactionDelay(Imperfection):
         """See `Imperfection.distort`."""
         past = self._newest_first
         if not past:
-            past.extend([np.zeros_like(force)] * (past.maxlen or 0))
+            past.extend(np.zeros_like(force) for _ in range(past.maxlen or 0))
         past.appendleft(np.array(force))
         if not self._share:
-            return past[-2].copy()
+            return past[-2]
         return (1.0 - self._share) * past[-2] + self._share * past[-1]

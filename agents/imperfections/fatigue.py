@@ -9,6 +9,7 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from cowalk.agents.humans.demand import require
+from cowalk.agents.humans.elementwise import Value, elementwise
 from cowalk.agents.interfaces import Observation, Situation
 from cowalk.sim.motion import Array
 
@@ -41,6 +42,11 @@ class Fatigue(Imperfection):
     strength : float
         Largest force of the rested arm at the handle, N. Inferred: one hand, standing.
 
+    Attributes
+    ----------
+    fatigued : float or ndarray, shape (...)
+        M_F, share of the motor units that is fatigued now.
+
     Raises
     ------
     InputError
@@ -62,15 +68,17 @@ class Fatigue(Imperfection):
         fatigue, recovery = RATES[self.muscle]
         self._ratio = fatigue / recovery
         self._change = -math.expm1(-recovery * situation.period)
-        self.fatigued = np.zeros(1)
+        self.fatigued: Value = 0.0
 
     def distort(self, force: Array, observation: Observation) -> Array:
         """See `Imperfection.distort`."""
-        asked = np.hypot(force[..., :1], force[..., 1:]) / self.strength
+        m = elementwise(force)
+        fx, fy = m.parts(force)
+        asked = m.sqrt(fx * fx + fy * fy) / self.strength
         able = 1.0 - self.fatigued
         # Steady state of M_F for the active units of this step, approached exponentially.
-        settled = self._ratio * np.minimum(asked, able)
-        given = force * np.minimum(able / np.maximum(asked, 1e-12), 1.0)
+        settled = self._ratio * m.minimum(asked, able)
         fatigued = self.fatigued + self._change * (settled - self.fatigued)
-        self.fatigued = np.minimum(fatigued, 1.0)
-        return given
+        self.fatigued = m.minimum(fatigued, 1.0)
+        share = m.minimum(able / m.maximum(asked, 1e-12), 1.0)
+        return m.pair(force, fx * share, fy * share)

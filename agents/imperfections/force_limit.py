@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-import numpy as np
-
 from cowalk.agents.humans.demand import require
+from cowalk.agents.humans.elementwise import elementwise
 from cowalk.agents.interfaces import Observation
 from cowalk.sim.motion import Array
 
@@ -40,5 +39,7 @@ class ForceLimit(Imperfection):
 
     def distort(self, force: Array, observation: Observation) -> Array:
         """See `Imperfection.distort`."""
-        size = np.hypot(force[..., :1], force[..., 1:])
-        return force * (self.limit / np.maximum(size, self.limit))
+        m = elementwise(force)
+        fx, fy = m.parts(force)
+        share = self.limit / m.maximum(m.sqrt(fx * fx + fy * fy), self.limit)
+        return m.pair(force, fx * share, fy * share)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cowalk.agents.humans.demand import require
+from cowalk.agents.humans.elementwise import Value, elementwise
 from cowalk.agents.interfaces import Observation, Situation
 from cowalk.sim.motion import Array
 
@@ -69,20 +70,24 @@ class GaitRipple(Imperfection):
     def reset(self, rng: np.random.Generator, situation: Situation) -> None:
         """See `Human.reset`."""
         super().reset(rng, situation)
-        sway = np.array([self.fore_aft_sway, self.lateral_sway])
-        self._amplitude = 0.5 * self.arm_stiffness * sway
-        self._harmonic = np.array([1.0, 0.5])
+        self._forward = 0.5 * self.arm_stiffness * self.fore_aft_sway
+        self._sideways = 0.5 * self.arm_stiffness * self.lateral_sway
         self._advance = 2.0 * np.pi * self.step_frequency * situation.period
-        self._phase: Array | None = None
+        self._phase: Value = None
         self._count = 0
 
     def distort(self, force: Array, observation: Observation) -> Array:
         """See `Imperfection.distort`."""
+        m = elementwise(force)
         if self._phase is None:
             # Over two steps, since the first may be a left or a right one.
-            self._phase = self._rng.uniform(0.0, 4.0 * np.pi, (*force.shape[:-1], 1))
-        angle = (self._advance * self._count + self._phase) * self._harmonic
+            (self._phase,) = m.parts(self._rng.uniform(0.0, 4.0 * np.pi, (*force.shape[:-1], 1)))
+        (fx, fy), (v, _) = m.parts(force), m.parts(observation["twist"])
+        angle = self._advance * self._count + self._phase
         self._count += 1
-        speed = np.abs(observation["twist"][..., :1])
-        walking = np.minimum(speed / self.walking_speed, 1.0)
-        return np.asarray(force + walking * self._amplitude * np.sin(angle))
+        walking = m.minimum(abs(v) / self.walking_speed, 1.0)
+        return m.pair(
+            force,
+            fx + walking * self._forward * m.sin(angle),
+            fy + walking * self._sideways * m.sin(0.5 * angle),
+        )

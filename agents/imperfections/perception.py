@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cowalk.agents.humans.demand import require
+from cowalk.agents.humans.elementwise import Elementwise, Value, elementwise
 from cowalk.agents.interfaces import Observation, Situation
 from cowalk.sim.motion import Array
 
@@ -47,26 +48,33 @@ class PerceptionThreshold(Imperfection):
     def reset(self, rng: np.random.Generator, situation: Situation) -> None:
         """See `Human.reset`."""
         super().reset(rng, situation)
-        self._felt = self._own = np.zeros(2)
+        self._felt: tuple[Value, Value] = (0.0, 0.0)
+        self._own: tuple[Value, Value] = (0.0, 0.0)
 
     def act(self, observation: Observation) -> Array:
         """See `Human.act`."""
         force = observation["force"]
-        self._felt = self._noticed(self._felt, force.mean(axis=-2))
+        mean = np.add.reduce(force, axis=-2) / force.shape[-2]
+        m = elementwise(mean)
+        self._felt = self._noticed(m, self._felt, m.parts(mean))
         perceived = observation.copy()
-        perceived["force"] = np.broadcast_to(self._felt[..., None, :], force.shape)
+        perceived["force"] = felt = np.empty_like(force)
+        felt[...] = m.pair(mean, *self._felt)[..., None, :]
         return self.distort(self.human.act(perceived), observation)
 
     def distort(self, force: Array, observation: Observation) -> Array:
         """See `Imperfection.distort`."""
-        self._own = self._noticed(self._own, force)
-        return self._own.copy()
+        m = elementwise(force)
+        self._own = self._noticed(m, self._own, m.parts(force))
+        return m.pair(force, *self._own)
 
-    def _noticed(self, held: Array, force: Array) -> Array:
+    def _noticed(
+        self, m: Elementwise, held: tuple[Value, Value], force: tuple[Value, Value]
+    ) -> tuple[Value, Value]:
         """Return the new force where it can be told from the one held in mind."""
-        just_noticeable = np.maximum(self.weber * _size(held), self.threshold)
-        return np.where((_size(force - held) > just_noticeable)[..., None], force, held)
-
-
-def _size(force: Array) -> Array:
-    return np.hypot(force[..., 0], force[..., 1])
+        (held_x, held_y), (x, y) = held, force
+        size = held_x * held_x + held_y * held_y
+        just_noticeable = m.maximum(self.weber * self.weber * size, self.threshold * self.threshold)
+        change_x, change_y = x - held_x, y - held_y
+        differs = change_x * change_x + change_y * change_y > just_noticeable
+        return m.where(differs, x, held_x), m.where(differs, y, held_y)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cowalk.agents.humans.demand import require
+from cowalk.agents.humans.elementwise import Value, elementwise
 from cowalk.agents.interfaces import Observation, Situation
 from cowalk.sim.errors import InputError
 from cowalk.sim.motion import Array
@@ -66,13 +67,19 @@ class Tremor(Imperfection):
         if reason := self.unsuited("", situation.period):
             raise InputError(f"tremor: {reason}")
         self._advance = 2.0 * np.pi * self.frequency * situation.period
-        self._phase: Array | None = None
+        self._phase: tuple[Value, Value] | None = None
         self._count = 0
 
     def distort(self, force: Array, observation: Observation) -> Array:
         """See `Imperfection.distort`."""
+        m = elementwise(force)
         if self._phase is None:
-            self._phase = self._rng.uniform(0.0, 2.0 * np.pi, force.shape)
-        angle = self._advance * self._count + self._phase
+            self._phase = m.parts(self._rng.uniform(0.0, 2.0 * np.pi, force.shape))
+        (fx, fy), (phase_x, phase_y) = m.parts(force), self._phase
+        angle = self._advance * self._count
         self._count += 1
-        return force * (1.0 + self.share * np.sin(angle))
+        return m.pair(
+            force,
+            fx * (1.0 + self.share * m.sin(angle + phase_x)),
+            fy * (1.0 + self.share * m.sin(angle + phase_y)),
+        )

@@ -200,12 +200,12 @@ def test_rest_restores_the_strength():
     fatigue, recovery = RATES["shoulder"]
     human = Fatigue(Pushing([[60.0, 0.0]] * 2400 + [[0.0, 0.0]] * 2400), strength=60.0)
     play(human, 2400)
-    tired = human.fatigued[0]
+    tired = human.fatigued
     # At full effort M_F approaches F/(F + R).
     expected = fatigue / (fatigue + recovery) * -np.expm1(-(fatigue + recovery) * 120.0)
     assert tired == pytest.approx(expected, rel=0.001)
     play(human, 4800)
-    assert human.fatigued[0] == pytest.approx(tired * np.exp(-recovery * 120.0), rel=0.001)
+    assert human.fatigued == pytest.approx(tired * np.exp(-recovery * 120.0), rel=0.001)
 
 
 @given(st.floats(-1e3, 1e3), st.floats(-1e3, 1e3), st.floats(0.1, 100.0))
