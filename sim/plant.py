@@ -14,6 +14,7 @@ import numpy as np
 from .errors import InputError
 from .motion import Array
 from .world import World
+from .wrench import SensorMount, in_sensor_frame
 
 BASE_RADIUS = 0.28
 """Radius of the disc that bounds the mobile base, m."""
@@ -82,12 +83,34 @@ class PlantState:
     force_on_base : ndarray, shape (samples, 2)
         Force of the human on the base in base axes, N, at every sensor instant of the step,
         oldest first, before the sensor model. A fresh array each step.
+    wrench_on_base : ndarray, shape (samples, 6), optional
+        Force (N) and torque about the handle (N m) of the human on the base, base axes, at the
+        same instants; None where the plant knows no torque.
+    mount : SensorMount
+        Where the sensor sits.
+    grip_held : bool
+        Whether human and base still hold on to each other.
+    over : bool
+        Whether the plant asks for the end of the episode, having lost its grip.
     """
 
     pose: tuple[float, float, float]
     twist: tuple[float, float]
     human_pose: tuple[float, float, float]
     force_on_base: Array
+    wrench_on_base: Array | None = None
+    mount: SensorMount = SensorMount()
+    grip_held: bool = True
+    over: bool = False
+
+    @property
+    def wrench_on_sensor(self) -> Array:
+        """The wrench about the sensor's origin, sensor axes, shape (samples, 6), N and N m."""
+        wrench = self.wrench_on_base
+        if wrench is None:
+            wrench = np.zeros((len(self.force_on_base), 6))
+            wrench[:, :2] = self.force_on_base
+        return in_sensor_frame(wrench, self.mount)
 
 
 class Plant(Protocol):
