@@ -121,9 +121,7 @@ class Arm:
         bend = math.atan2(fore * math.sin(elbow), upper + fore * math.cos(elbow))
         shoulder = math.remainder(math.atan2(y, x) - bend, math.tau)
         lowest, highest = ELBOW_RANGE
-        if not (
-            lowest < elbow < highest and SHOULDER_RANGE[0] < shoulder < SHOULDER_RANGE[1]
-        ):
+        if not (lowest < elbow < highest and SHOULDER_RANGE[0] < shoulder < SHOULDER_RANGE[1]):
             raise InputError(
                 f"a hand at ({hand[0]:.2f}, {hand[1]:.2f}) m is out of reach of an arm of "
                 f"{upper:.2f} + {fore:.2f} m (seen from above) at "

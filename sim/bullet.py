@@ -40,7 +40,7 @@ NO_WRENCH = (0.0, 0.0, 0.0)
 
 
 class BulletPlant:
-    """A mobile base and a walking human who hold on to each other, in a PyBullet world of their own.
+    """A mobile base and a walking human who hold on to each other, in a world of their own.
 
     The human's trunk, and with the drive "slip" the base too, stand on planar joints (x, y,
     yaw). Parameters may be given as their dataclass or as a mapping of its fields.
@@ -91,6 +91,7 @@ class BulletPlant:
         self._mount = parameters("mount", SensorMount, mount)
         robot = parameters("robot", RobotParameters, robot)
         held = robot_of(robot, human_parameters.hand, coupling.kind)
+        self._handle = held.handle
         both = human_parameters.hand == "both"
         carried = coupling.kind == "stretcher"
         if drive.kind == "wheels" and robot.urdf is not None:
@@ -287,9 +288,7 @@ class BulletPlant:
         phase = self._gait.phase if self._gait.enabled else None
         x, y, yaw, vx, vy, _ = self._base_state
         speed = math.cos(yaw) * vx + math.sin(yaw) * vy
-        self._viewer.show(
-            (x, y, yaw), self._human_state[:n], self._load_state[:3], phase, speed
-        )
+        self._viewer.show((x, y, yaw), self._human_state[:n], self._load_state[:3], phase, speed)
         return self._viewer
 
     def _watch(self) -> None:

@@ -153,9 +153,7 @@ class Base(Protocol):
 class SlipBase(Slab):
     """A base on planar joints, driven by `SlipDrive`."""
 
-    def __init__(
-        self, client: int, rigid: Rigid, parameters: DriveParameters, step: float
-    ) -> None:
+    def __init__(self, client: int, rigid: Rigid, parameters: DriveParameters, step: float) -> None:
         super().__init__(client, "base", rigid)
         self._drive = SlipDrive(parameters, rigid.mass, rigid.yaw_inertia, step)
         self._wrench = self._drive.wrench

@@ -10,6 +10,8 @@ import ctypes.util
 import importlib
 import os
 import sys
+import weakref
+from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -50,6 +52,10 @@ with quiet(1, 2):  # it announces its build time
     engine = importlib.import_module("pybullet")
 
 
+_opened: Counter[int] = Counter()
+"""How often each client id was given out: a freed one is given out again."""
+
+
 def connect(gui: bool = False) -> int:
     """Open a world of one's own and return its client id.
 
@@ -67,6 +73,7 @@ def connect(gui: bool = False) -> int:
         client: int = engine.connect(engine.GUI if gui else engine.DIRECT)
     if client < 0:
         raise InputError("no window can be opened: another one is open in this process")
+    _opened[client] += 1
     return client
 
 
@@ -111,6 +118,24 @@ def load(client: int, urdf: str, *, fixed: bool = True, flags: int = 0) -> int:
             str(path), useFixedBase=fixed, flags=flags, physicsClientId=client
         )
     return body
+
+
+class Snapshot:
+    """State of everything in a client, kept by the engine for as long as this object lives."""
+
+    def __init__(self, client: int) -> None:
+        self._client = client
+        self._id: int = engine.saveState(client)
+        weakref.finalize(self, _forget, self._id, client, _opened[client])
+
+    def restore(self) -> None:
+        """Put the client back into that state, bit for bit."""
+        engine.restoreState(stateId=self._id, physicsClientId=self._client)
+
+
+def _forget(state: int, client: int, opened: int) -> None:
+    if _opened[client] == opened and engine.isConnected(client):
+        engine.removeState(state, client)
 
 
 def force_on_parent(kind: int, reaction: tuple[float, ...]) -> tuple[float, float, float]:

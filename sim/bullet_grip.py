@@ -1,4 +1,4 @@
-"""The hands of the human on what they hold, in the engine: constraints, bushings, and their loss."""
+"""The hands of the human on what they hold, in the engine: joined, yielding, or lost."""
 
 from __future__ import annotations
 

@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from .bullet_bodies import State, free_body
-from .bullet_engine import engine, load
+from .bullet_engine import Snapshot, engine, load
 from .drive import Command, DriveParameters
 from .urdf import Rigid, Vector
 
@@ -67,9 +67,7 @@ class WheelBase:
 
     link = -1
 
-    def __init__(
-        self, client: int, rigid: Rigid, parameters: DriveParameters, step: float
-    ) -> None:
+    def __init__(self, client: int, rigid: Rigid, parameters: DriveParameters, step: float) -> None:
         self._client = client
         self._centre = rigid.centre
         self._command = Command(parameters, step)
@@ -177,9 +175,11 @@ class WheelBase:
 
     def save(self) -> Any:
         """See `Base.save`."""
-        return self._command.save(), self._turns, self._last
+        # Contacts carry what the solver learned in the last step; only the engine can save them.
+        return Snapshot(self._client), self._command.save(), self._turns, self._last
 
     def restore(self, saved: Any) -> None:
         """See `Base.restore`."""
-        command, self._turns, self._last = saved
+        snapshot, command, self._turns, self._last = saved
+        snapshot.restore()
         self._command.restore(command)

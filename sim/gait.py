@@ -80,7 +80,7 @@ class GaitParameters:
 
 
 def sway_at(percentile: float) -> tuple[float, float]:
-    """Return the measured peak-to-peak sway at a percentile from 5 to 95, fore-aft and lateral, m."""
+    """Return the measured peak-to-peak sway, fore-aft and lateral, m, at a percentile (5 to 95)."""
     fore_aft, lateral = (
         math.exp(float(np.interp(percentile, PERCENTILES, np.log(sizes))))
         for sizes in (FORE_AFT, LATERAL)
@@ -134,22 +134,23 @@ class Gait:
         self._phase = float(rng.uniform(0.0, math.tau)) if self.enabled else 0.0
 
     def update(self, speed: float) -> Sway:
-        """Return the sway after one more step at a speed (m/s)."""
+        """Return the sway now, at a speed (m/s), and go on by one step.
+
+        The acceleration is that of half a step ahead: it is what acts until the next update.
+        """
         self._speed += self._share * (speed - self._speed)
         pace = abs(self._speed)
         rate = math.pi * self._preferred * (pace / PREFERRED_SPEED) ** CADENCE_EXPONENT
-        phase = self._phase = (self._phase + rate * self._step) % math.tau
+        phase = self._phase
+        self._phase = (phase + rate * self._step) % math.tau
         size = pace / FULL_SPEED if pace < FULL_SPEED else 1.0
         fore, side = self._half[0] * size, self._half[1] * size
         sin, cos, twice = math.sin(phase), math.cos(phase), 2.0 * rate
         x, y = fore * 2.0 * sin * cos, side * sin
+        vx, vy = twice * fore * (1.0 - 2.0 * sin * sin), rate * side * cos
+        ahead = 0.5 * self._step
         return Sway(
-            x,
-            y,
-            twice * fore * (1.0 - 2.0 * sin * sin),
-            rate * side * cos,
-            -twice * twice * x,
-            -rate * rate * y,
+            x, y, vx, vy, -twice * twice * (x + ahead * vx), -rate * rate * (y + ahead * vy)
         )
 
     @property

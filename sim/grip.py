@@ -1,4 +1,4 @@
-"""What a hand does to what it holds: rigid or yielding, slipping, letting go. Plain floats, pure."""
+"""What a hand does to what it holds: rigid or yielding, slipping, letting go. Pure."""
 
 from __future__ import annotations
 

@@ -47,7 +47,8 @@ def capsule(start: Vector, end: Vector, radius: float, colour: str) -> str:
     middle = " ".join(f"{(a + b) / 2.0:.5f}" for a, b in zip(start, end, strict=True))
     return (
         f'<visual><origin xyz="{middle}" rpy="0 {pitch:.5f} {yaw:.5f}"/><geometry>'
-        f'<capsule radius="{radius:.5f}" length="{length:.5f}"/></geometry>{_paint(colour)}</visual>'
+        f'<capsule radius="{radius:.5f}" length="{length:.5f}"/></geometry>'
+        f"{_paint(colour)}</visual>"
     )
 
 

@@ -7,7 +7,7 @@ Two plants ship, `cowalk.sim.unicycle` (kinematic, the paper's) and `cowalk.sim.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -22,6 +22,9 @@ HUMAN_RADIUS = 0.22
 """Radius of the disc that bounds the human's trunk, m (half of a shoulder breadth of 0.44 m)."""
 HUMAN_PLACE = (-0.10, -0.65, 0.0)
 """Pose at which the human walks beside the base, in base axes: m, m, rad."""
+
+AT_HANDLE = SensorMount()
+"""A sensor whose frame is the base's, moved to the handle."""
 
 
 def _ratio(fast_name: str, fast: int, slow_name: str, slow: int) -> int:
@@ -99,7 +102,7 @@ class PlantState:
     human_pose: tuple[float, float, float]
     force_on_base: Array
     wrench_on_base: Array | None = None
-    mount: SensorMount = SensorMount()
+    mount: SensorMount = AT_HANDLE
     grip_held: bool = True
     over: bool = False
 
@@ -137,6 +140,14 @@ class Plant(Protocol):
         SimulationError
             If the state is not finite any more, or a body moves faster than is plausible.
         """
+        ...
+
+    def save(self) -> Any:
+        """Return the whole state within an episode: opaque, and never changed."""
+        ...
+
+    def restore(self, saved: Any) -> PlantState:
+        """Go on from what `save` gave, bit for bit; the state's force samples are void."""
         ...
 
     def render(self, width: int, height: int) -> np.ndarray:

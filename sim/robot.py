@@ -73,7 +73,9 @@ def robot_of(parameters: RobotParameters, hand: str, coupling: str) -> Robot:
     rigid = lump(root)
     if parameters.handle not in rigid.places:
         known = sorted(rigid.places)
-        raise InputError(f"robot.handle: no link {parameters.handle!r}; {did_you_mean(parameters.handle, known)}")
+        raise InputError(
+            f"robot.handle: no link {parameters.handle!r}; {did_you_mean(parameters.handle, known)}"
+        )
     handle = rigid.places[parameters.handle]
     handles = two_hands(handle) if hand == "both" else (handle,)
     return Robot(rigid, handle, handles, ElementTree.tostring(root, encoding="unicode"))

@@ -192,8 +192,12 @@ class Walker:
             fore_x, fore_y = fore * math.cos(bent), fore * math.sin(bent)
             hand_x, hand_y = shoulder_x + arm_x + fore_x, shoulder_y + arm_y + fore_y
             legs_yaw += hand_x * pushed_y - hand_y * pushed_x
-            own_x = pushed_x + k * (rest_x - hand_x) + b * (arm_y * shoulder_rate + fore_y * bent_rate)
-            own_y = pushed_y + k * (rest_y - hand_y) - b * (arm_x * shoulder_rate + fore_x * bent_rate)
+            own_x = (
+                pushed_x + k * (rest_x - hand_x) + b * (arm_y * shoulder_rate + fore_y * bent_rate)
+            )
+            own_y = (
+                pushed_y + k * (rest_y - hand_y) - b * (arm_x * shoulder_rate + fore_x * bent_rate)
+            )
             at_elbow = fore_x * own_y - fore_y * own_x
             forces.append(arm_x * own_y - arm_y * own_x + at_elbow)
             forces.append(at_elbow)
