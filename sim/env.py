@@ -22,6 +22,9 @@ from .world import SEATS, Clearance, Corridor, World
 STRAIGHT_CORRIDOR = World(path=Path(((0.0, 0.0), (20.0, 0.0))), corridor=Corridor(width=3.0))
 """The world of `parallel_env` without arguments: nothing in it, nothing to negotiate."""
 
+_SAVED = ("agents", "_step_count", "_sensor", "_generator", "_state", "_measured", "_info")
+"""What of an environment changes within an episode, beside its plant."""
+
 
 def _box(*shape: int) -> Box:
     return Box(-np.inf, np.inf, shape, np.float64)
@@ -222,39 +225,15 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
 
     def save(self) -> Any:
         """Return the whole state within an episode, for `restore`: opaque, and never changed."""
-        plant = self._plant.save()
-        # As one tuple, so that what they share stays shared.
-        return plant, copy.deepcopy(
-            (
-                self.agents,
-                self._step_count,
-                self._sensor,
-                self._generator,
-                self._state,
-                self._measured,
-                self._info,
-            )
-        )
+        # Copied as one, so that what its parts share stays shared.
+        own = copy.deepcopy({name: vars(self)[name] for name in _SAVED})
+        return self._plant.save(), own
 
     def restore(self, saved: Any) -> dict[str, Observation]:
-        """Go on from a saved state of this environment, bit for bit.
-
-        Returns
-        -------
-        dict of Observation
-            The observations there.
-        """
+        """Go on from a saved state of this environment, bit for bit; return what is seen there."""
         plant, own = saved
         self._plant.restore(plant)
-        (
-            self.agents,
-            self._step_count,
-            self._sensor,
-            self._generator,
-            self._state,
-            self._measured,
-            self._info,
-        ) = copy.deepcopy(own)
+        vars(self).update(copy.deepcopy(own))
         return self._observations()
 
     @property
