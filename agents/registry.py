@@ -22,6 +22,7 @@ HUMANS: Registry[Human] = Registry(
         "recorded": "cowalk.agents.humans.recorded:RecordedHuman",
     },
     "cowalk.humans",
+    methods=("reset", "act", "truth"),
 )
 
 AUTOMATIONS: Registry[Automation] = Registry(
@@ -32,4 +33,5 @@ AUTOMATIONS: Registry[Automation] = Registry(
         "always-yields": "cowalk.agents.automations.constant:AlwaysYields",
     },
     "cowalk.automations",
+    methods=("reset", "act", "belief"),
 )
