@@ -1,9 +1,10 @@
-"""The human models and automations that ship, by name."""
+"""The human models, their imperfections and the automations that ship, by name."""
 
 from __future__ import annotations
 
 from cowalk.sim.registry import Registry
 
+from .imperfections.wrapper import Imperfection
 from .interfaces import Automation, Human
 
 HUMANS: Registry[Human] = Registry(
@@ -23,6 +24,20 @@ HUMANS: Registry[Human] = Registry(
     },
     "cowalk.humans",
     methods=("reset", "act", "truth"),
+)
+
+IMPERFECTIONS: Registry[Imperfection] = Registry(
+    "imperfection",
+    {
+        "reaction-delay": "cowalk.agents.imperfections.delay:ReactionDelay",
+        "perception-threshold": "cowalk.agents.imperfections.perception:PerceptionThreshold",
+        "signal-dependent-noise": "cowalk.agents.imperfections.noise:SignalDependentNoise",
+        "tremor": "cowalk.agents.imperfections.tremor:Tremor",
+        "fatigue": "cowalk.agents.imperfections.fatigue:Fatigue",
+        "force-limit": "cowalk.agents.imperfections.force_limit:ForceLimit",
+        "gait-ripple": "cowalk.agents.imperfections.gait:GaitRipple",
+    },
+    "cowalk.imperfections",
 )
 
 AUTOMATIONS: Registry[Automation] = Registry(

@@ -5,9 +5,13 @@ from __future__ import annotations
 from rich.console import Console
 from rich.table import Table
 
-from . import closed_loop, humans
+from . import closed_loop, humans, imperfections
 
-SUBJECTS = {"closed loop": closed_loop.measure, "human models": humans.measure}
+SUBJECTS = {
+    "closed loop": closed_loop.measure,
+    "human models": humans.measure,
+    "imperfections": imperfections.measure,
+}
 
 
 def main() -> None:

@@ -32,24 +32,28 @@ def _recording(folder: str) -> str:
     return str(file)
 
 
-def _scene(lanes: int | None = None) -> Observation:
+def scene(lanes: int | None = None) -> Observation:
+    """Return the scene for one human, or for as many."""
     obstacles = np.zeros((8, 4))
     obstacles[0] = [1.0, 3.0, -0.7, 0.35]
     one = Observation(
         twist=np.array([0.7, 0.1]),
         force=np.zeros((12, 2)),
         pose=np.array([1.0, 0.1, 0.05]),
+        pose_world=np.array([1.0, 0.1, 0.05]),
         obstacles=obstacles,
         time=np.array([1.0]),
     )
     if lanes is None:
         return one
     batch = {key: np.repeat(value[None], lanes, axis=0) for key, value in one.items()}
-    batch["pose"][:, 1] = np.linspace(-1.0, 1.0, lanes)
+    for pose in ("pose", "pose_world"):
+        batch[pose][:, 1] = np.linspace(-1.0, 1.0, lanes)
     return Observation(**batch)
 
 
-def _walking(human: Human, observation: Observation, steps: int) -> Callable[[], None]:
+def walking(human: Human, observation: Observation, steps: int) -> Callable[[], None]:
+    """Return a function that steps a human in a scene."""
     human.reset(np.random.default_rng(0), SITUATION)
 
     def walk() -> None:
@@ -60,7 +64,8 @@ def _walking(human: Human, observation: Observation, steps: int) -> Callable[[],
     return walk
 
 
-def _reference() -> None:
+def reference() -> None:
+    """Subtract `STEPS` times."""
     a, b = np.array([0.7, 0.1]), np.array([1.2, 0.5])
     for _ in range(STEPS):
         a - b
@@ -68,7 +73,7 @@ def _reference() -> None:
 
 def measure() -> list[tuple[str, float, str]]:
     """Return rows of (what, value, unit)."""
-    one, many = _scene(), _scene(BATCH)
+    one, many = scene(), scene(BATCH)
     alone: dict[str, float] = {}
     batched: dict[str, float] = {}
     subtraction = np.inf
@@ -76,12 +81,12 @@ def measure() -> list[tuple[str, float, str]]:
         needed = {"recorded": {"file": _recording(folder)}}
         humans = {name: HUMANS.get(name)(**needed.get(name, {})) for name in HUMANS}
         for _ in range(ROUNDS):
-            subtraction = min(subtraction, best(_reference, 1) / STEPS)
+            subtraction = min(subtraction, best(reference, 1) / STEPS)
             for name, human in humans.items():
-                cost = best(_walking(human, one, STEPS), 1) / STEPS
+                cost = best(walking(human, one, STEPS), 1) / STEPS
                 alone[name] = min(alone.get(name, np.inf), cost)
                 if getattr(human, "broadcasts", True):
-                    cost = best(_walking(human, many, 1), 1) / BATCH
+                    cost = best(walking(human, many, 1), 1) / BATCH
                     batched[name] = min(batched.get(name, np.inf), cost)
     rows = [("subtraction of two pairs", subtraction * 1e6, "us")]
     for name, cost in alone.items():

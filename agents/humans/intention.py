@@ -179,15 +179,16 @@ class Intention:
         pose = observation["pose"]
         m = elementwise(pose)
         known = station, _, _ = tuple(m.parts(pose))
+        world = tuple(m.parts(observation["pose_world"]))
         if self._changes:
             self._change_mind(m, observation["time"], station)
         obstacles = _rows(m, observation["obstacles"])
         if m is FLOATS:
-            seen = self._follow(m, self._routes[self._route], known, obstacles)
+            seen = self._follow(m, self._routes[self._route], known, world, obstacles)
         else:
-            seen = self._follow(m, self._routes[0], known, obstacles)
+            seen = self._follow(m, self._routes[0], known, world, obstacles)
             for i, route in enumerate(self._routes[1:], start=1):
-                other = self._follow(m, route, known, obstacles)
+                other = self._follow(m, route, known, world, obstacles)
                 on_it = self._route == i
                 seen = tuple(m.where(on_it, b, a) for a, b in zip(seen, other, strict=True))
         offset, heading, aim, ahead, left = seen
@@ -209,18 +210,23 @@ class Intention:
             self._made[i] = m.where(due, True, self._made[i])
 
     def _follow(
-        self, m: Elementwise, route: Route | None, known: Triple, obstacles: list[Value]
+        self,
+        m: Elementwise,
+        route: Route | None,
+        known: Triple,
+        world: Triple,
+        obstacles: list[Value],
     ) -> tuple[Value, ...]:
         """Return offset, heading, aim, ahead and left for one path."""
         relative = known
         if route is None:
             route = self._known
         else:
-            relative = route.relative(m, self._known.absolute(m, known))
+            relative = route.relative(m, world)
         _, offset, heading = relative
         axis = m.cos(heading), m.sin(heading)
         aim = self._around(m, offset, axis, obstacles) if obstacles else 0.0
-        ahead, left = route.towards(m, relative, axis, self._settings.lookahead, aim)
+        ahead, left = route.towards(m, relative, world, axis, self._settings.lookahead, aim)
         return offset, heading, aim, ahead, left
 
     def _around(

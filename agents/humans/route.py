@@ -42,6 +42,7 @@ class Route:
         self,
         m: Elementwise,
         relative: Triple,
+        pose_world: Triple,
         axis: tuple[Value, Value],
         lookahead: float,
         aim: Value,
@@ -53,6 +54,8 @@ class Route:
         m : Elementwise
         relative : (station, offset, heading)
             Pose of the base against this path: m, m, rad.
+        pose_world : (x, y, theta)
+            The same pose in the world.
         axis : (float or ndarray, float or ndarray)
             Cosine and sine of the heading.
         lookahead : float
@@ -65,7 +68,7 @@ class Route:
         if self._straight:
             dx, dy = lookahead, aim - offset
         else:
-            x, y, theta = self.absolute(m, relative)
+            x, y, theta = pose_world
             there_x, there_y, _ = self.absolute(m, (station + lookahead, aim, 0.0))
             dx, dy = there_x - x, there_y - y
             cos, sin = m.cos(theta), m.sin(theta)

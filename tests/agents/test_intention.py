@@ -30,6 +30,7 @@ def walk_alone(wanted, obstacles_world=(), start=(0.0, 0.0, 0.0), steps=500, sit
             rows[i] = [1.0, cos * dx + sin * dy, cos * dy - sin * dx, radius]
         seen = {
             "pose": np.array(situation.path.relative(*pose)),
+            "pose_world": pose,
             "obstacles": rows,
             "time": np.array([k * situation.period]),
         }
@@ -126,6 +127,7 @@ def test_a_batch_changes_its_mind_one_by_one():
                 intention.wish(
                     {
                         "pose": lane + k * np.array([0.04, 0.0, 0.0]),
+                        "pose_world": lane + k * np.array([0.04, 0.0, 0.0]),
                         "obstacles": np.broadcast_to(obstacles, (*lane.shape[:-1], 8, 4)),
                         "time": np.broadcast_to(0.05 * k, (*lane.shape[:-1], 1)),
                     }
