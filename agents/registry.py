@@ -23,6 +23,7 @@ HUMANS: Registry[Human] = Registry(
         "recorded": "cowalk.agents.humans.recorded:RecordedHuman",
     },
     "cowalk.humans",
+    methods=("reset", "act", "truth"),
 )
 
 IMPERFECTIONS: Registry[Imperfection] = Registry(
@@ -47,4 +48,5 @@ AUTOMATIONS: Registry[Automation] = Registry(
         "always-yields": "cowalk.agents.automations.constant:AlwaysYields",
     },
     "cowalk.automations",
+    methods=("reset", "act", "belief"),
 )

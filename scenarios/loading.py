@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.resources import files
@@ -140,6 +141,10 @@ def read_document(file: Path) -> Document:
     InputError
         If the file cannot be read.
     """
+    # `module:Class` is looked for beside the scenario, wherever it is run from.
+    folder = str(file.resolve().parent)
+    if folder not in sys.path:
+        sys.path.append(folder)
     try:
         return parse(file.read_text(encoding="utf-8"))
     except OSError as error:
