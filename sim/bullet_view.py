@@ -13,6 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .bullet_engine import connect, disconnect, engine, load
+from .bullet_scene import look_at, photograph
+from .camera import Camera
 from .world import World
 
 WALL_HEIGHT, WALL_THICKNESS = 0.25, 0.10
@@ -23,8 +25,10 @@ MARGIN = 6.0
 """How far floor and walls reach beyond path and start, m."""
 FLOOR, FLOOR_DARK = (0.80, 0.78, 0.74, 1.0), (0.74, 0.72, 0.68, 1.0)
 WALL, PUDDLE, SOLID = (0.55, 0.57, 0.60, 1.0), (0.20, 0.50, 0.90, 1.0), (0.55, 0.42, 0.28, 1.0)
-CAMERA_DISTANCE, CAMERA_PITCH, CAMERA_SIDE = 3.3, -24.0, 32.0
-"""Chase camera: m, degrees, and degrees to the left of straight behind the base."""
+CAMERA_DISTANCE, CAMERA_PITCH, CAMERA_SIDE, CAMERA_FIELD = 3.3, -24.0, 32.0, 50.0
+"""Chase camera: m, degrees, degrees to the left of straight behind the base, degrees."""
+TOP_DISTANCE, TOP_FIELD, TOP_AHEAD = 24.0, 10.0, 0.8
+"""Top camera, far away so that it hardly distorts: m, degrees, m ahead of the pair."""
 
 
 class Viewer:
@@ -155,23 +159,33 @@ class Viewer:
         time.sleep(max(0.0, self._shown + period - time.perf_counter()))
         self._shown = time.perf_counter()
 
-    def picture(self, width: int, height: int) -> NDArray[np.uint8]:
-        """Return what the chase camera sees, uint8, shape (height, width, 3)."""
-        view = engine.computeViewMatrixFromYawPitchRoll(
-            self._target, CAMERA_DISTANCE, self._yaw, CAMERA_PITCH, 0.0, 2
+    @property
+    def client(self) -> int:
+        """The engine world that is looked at."""
+        return self._client
+
+    def camera(self, kind: str, width: int, height: int) -> Camera:
+        """Return a camera that follows the pair.
+
+        Parameters
+        ----------
+        kind : {"chase", "top"}
+            From behind, or straight from above with world x to the right.
+        width, height : int
+            Size of the picture in pixels.
+        """
+        size = (width, height)
+        if kind == "top":
+            x, y, _ = self._target
+            ahead = (x + TOP_AHEAD, 0.0 if self.world.corridor else y, 0.0)
+            return look_at(ahead, TOP_DISTANCE, 0.0, -89.99, TOP_FIELD, size)
+        return look_at(
+            self._target, CAMERA_DISTANCE, self._yaw, CAMERA_PITCH, CAMERA_FIELD, size
         )
-        projection = engine.computeProjectionMatrixFOV(50.0, width / height, 0.1, 30.0)
-        pixels = engine.getCameraImage(
-            width,
-            height,
-            view,
-            projection,
-            lightDirection=(-2.0, 3.0, 6.0),
-            shadow=0,
-            renderer=engine.ER_TINY_RENDERER,
-            physicsClientId=self._client,
-        )[2]
-        return np.reshape(np.array(pixels, dtype=np.uint8), (height, width, 4))[..., :3].copy()
+
+    def picture(self, width: int, height: int, kind: str = "chase") -> NDArray[np.uint8]:
+        """Return what a `camera` sees, uint8, shape (height, width, 3)."""
+        return photograph(self._client, self.camera(kind, width, height))
 
     def close(self) -> None:
         """Free the world. May be called twice."""
