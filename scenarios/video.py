@@ -1,39 +1,41 @@
-"""A run as a video: chase and top camera, the force, both sides' wishes, beliefs beside the truth."""
+"""A run as a video: chase and top camera, force, both wishes, beliefs beside the truth."""
 
 from __future__ import annotations
 
 import subprocess
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol, runtime_checkable
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
 from cowalk.sim import topview
+from cowalk.sim.bullet_scene import photograph
 from cowalk.sim.camera import Camera, level_camera
 from cowalk.sim.errors import InputError, SimulationError
 from cowalk.sim.motion import compose
+from cowalk.sim.plant import BASE_RADIUS
 
 from .figures_style import AUTOMATION, HUMAN
 from .results import UNITS
 from .video_frame import (
     FORCE,
     HEADER,
+    HEIGHT,
     INSET,
     METRES_PER_NEWTON,
     PALE,
     VIEW,
     WIDTH,
-    HEIGHT,
     Frame,
     draw_arrow,
     draw_band,
+    draw_shadow,
 )
-from .watching import arc_points, writable_file
+from .watching import Filmed, arc_points, writable_file
 
 if TYPE_CHECKING:
-    from cowalk.sim.bullet_view import Viewer
     from cowalk.sim.env import CowalkEnv
 
     from .results import Trace
@@ -47,18 +49,6 @@ BANDS = (
     ("wish", 0.07, AUTOMATION, 0.9),
 )
 """Prefix of the trace columns, width in m, colour and opacity of each wish, undermost first."""
-
-
-@runtime_checkable
-class Filmed(Protocol):
-    """A plant whose bodies a camera can see."""
-
-    @property
-    def handle(self) -> tuple[float, float, float]:
-        """Where the handle is, base axes, m."""
-
-    def viewer(self) -> Viewer:
-        """Return what shows the plant as it is now."""
 
 
 class Video:
@@ -125,42 +115,37 @@ class Video:
         plant = env.plant
         if isinstance(plant, Filmed):
             viewer = plant.viewer()
-            handle = plant.handle
             for kind, size, place in (
                 ("chase", VIEW, (0, HEADER)),
                 ("top", INSET, (VIEW[0], HEADER)),
             ):
                 camera = viewer.camera(kind, *size)
-                frame.place(self._scene(viewer.picture(*size, kind), camera, row, handle), *place)
+                seen, actors = photograph(viewer.client, camera)
+                image = Image.fromarray(seen)
+                draw_shadow(image, camera, np.array([row["x"], row["y"]]), BASE_RADIUS)
+                draw_shadow(image, camera, np.array([row["human_x"], row["human_y"]]), 0.3)
+                self._draw_wishes(image, camera, row)
+                image.paste(Image.fromarray(seen), mask=Image.fromarray(actors))
+                _draw_force(image, camera, row, plant.handle)
+                frame.place(image, *place)
             top = HEADER + INSET[1]
         else:
             camera = level_camera(*topview.window(env.world, env.plant_state, *VIEW), *VIEW)
             drawn = topview.draw(env.world, env.plant_state, *VIEW, force=False)
-            frame.place(self._scene(drawn, camera, row, (0.0, 0.0, 0.0)), 0, HEADER)
+            image = Image.fromarray(drawn)
+            self._draw_wishes(image, camera, row)
+            _draw_force(image, camera, row, (0.0, 0.0, 0.0))
+            frame.place(image, 0, HEADER)
             top = HEADER + 60
         _gauges(frame, top, row)
         return frame.pixels()
 
-    def _scene(
-        self,
-        seen: NDArray[np.uint8],
-        camera: Camera,
-        row: dict[str, float],
-        handle: tuple[float, float, float],
-    ) -> Image.Image:
-        """Draw wishes and force into what a camera sees."""
-        image = Image.fromarray(seen)
+    def _draw_wishes(self, image: Image.Image, camera: Camera, row: dict[str, float]) -> None:
         pose = np.array([row["x"], row["y"], row["theta"]])
         for prefix, width, colour, opacity in BANDS:
             wish = np.array([row[f"{prefix}_v"], row[f"{prefix}_omega"]])
-            draw_band(
-                image, camera, arc_points(pose, wish, self._horizon), width, colour, opacity
-            )
-        push = np.array([row["fx"], row["fy"]]) * METRES_PER_NEWTON
-        ends = compose(pose, [(*handle[:2], 0.0), (*(handle[:2] + push), 0.0)])
-        tail, tip = camera.project([(*end[:2], handle[2]) for end in ends])
-        draw_arrow(image, tail, tip)
-        return image
+            arc = arc_points(pose, wish, self._horizon)
+            draw_band(image, camera, arc, width, colour, opacity)
 
     def close(self) -> None:
         """See `Watcher.close`.
@@ -183,6 +168,17 @@ class Video:
         self._process = None
         reason = (said or b"").decode(errors="replace").strip().splitlines()
         return f"the video {self.file} cannot be written: {reason[-1] if reason else 'no reason'}"
+
+
+def _draw_force(
+    image: Image.Image, camera: Camera, row: dict[str, float], handle: tuple[float, float, float]
+) -> None:
+    """Draw the measured force at the handle (base axes, m)."""
+    pose = (row["x"], row["y"], row["theta"])
+    x, y, height = handle
+    tip = (x + row["fx"] * METRES_PER_NEWTON, y + row["fy"] * METRES_PER_NEWTON, 0.0)
+    ends = compose(pose, [(x, y, 0.0), tip])
+    draw_arrow(image, *camera.project([(*end[:2], height) for end in ends]))
 
 
 def _gauges(frame: Frame, top: float, row: dict[str, float]) -> None:

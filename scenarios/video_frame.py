@@ -13,7 +13,7 @@ from PIL import Image, ImageDraw, ImageFont
 from cowalk.sim.camera import Camera
 from cowalk.sim.motion import Array
 
-from .figures_style import AGREED, AUTOMATION, HUMAN, MUTED
+from .figures_style import AGREED, MUTED
 
 WIDTH, HEIGHT = 960, 544
 """Size of a frame in pixels: whole multiples of 16, as video encoders want them."""
@@ -98,6 +98,15 @@ def draw_band(
     _fill(image, camera.project(floor), colour, opacity)
 
 
+def draw_shadow(image: Image.Image, camera: Camera, place: Array, radius: float) -> None:
+    """Darken the floor under a body: place (x, y, ...) in m, world axes."""
+    angles = np.linspace(0.0, 2.0 * math.pi, 40, endpoint=False)
+    circle = np.stack((np.cos(angles), np.sin(angles), np.zeros(40)), axis=-1)
+    middle = np.array([place[0], place[1], 0.0])
+    for share in np.linspace(1.3, 0.7, 7):
+        _fill(image, camera.project(middle + circle * radius * share), "#101418", 0.055)
+
+
 class Frame:
     """A frame being composed.
 
@@ -141,7 +150,9 @@ class Frame:
             self._draw.text((left + 18, top), text, AGREED, _face(12))
             left += 18 + self._draw.textlength(text, _face(12)) + 14
 
-    def gauge(self, top: float, name: str, value: float, colour: str, truth: float = math.nan) -> None:
+    def gauge(
+        self, top: float, name: str, value: float, colour: str, truth: float = math.nan
+    ) -> None:
         """Show a value in [0, 1] as a bar, and the truth as a pale one around it."""
         left, right = VIEW[0] + 86, WIDTH - 62
         self._draw.text((VIEW[0] + 18, top + 9), name, AGREED, _face(13), anchor="lm")
@@ -150,7 +161,7 @@ class Frame:
             if math.isfinite(share):
                 end = left + (right - left) * min(max(share, 0.0), 1.0)
                 self._draw.rectangle((left, top + inset, end, top + 18 - inset), paint)
-        said = f"{value:.2f}" if math.isfinite(value) else "–"
+        said = f"{value:.2f}" if math.isfinite(value) else "-"
         self._draw.text((WIDTH - 18, top + 9), said, AGREED, _face(13), anchor="rm")
 
     def reading(self, top: float, text: str, value: str) -> None:

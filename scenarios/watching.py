@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from cowalk.sim.errors import InputError
 from cowalk.sim.motion import Array, arc_displacement, compose
 
 if TYPE_CHECKING:
+    from cowalk.sim.bullet_view import Viewer
     from cowalk.sim.env import CowalkEnv
 
     from .results import Trace
@@ -43,6 +44,46 @@ class Watcher(Protocol):
     def close(self) -> None:
         """Finish. Called once, however the run ends, and even if it never started."""
         ...
+
+
+@runtime_checkable
+class Filmed(Protocol):
+    """A plant whose bodies stand in an engine world that can be looked at."""
+
+    @property
+    def handle(self) -> tuple[float, float, float]:
+        """Where the handle is, base axes, m."""
+
+    def viewer(self) -> Viewer:
+        """Return what shows the plant as it is now."""
+
+
+def watchers(video: Path | None = None, recording: Path | None = None) -> list[Watcher]:
+    """Return the watchers that write what is asked for.
+
+    Parameters
+    ----------
+    video : Path, optional
+        ``.mp4``, see `cowalk.scenarios.video.Video`.
+    recording : Path, optional
+        ``.rrd``, see `cowalk.scenarios.recording.Recording`.
+
+    Raises
+    ------
+    InputError
+        If a file cannot be written, or what writes it is not installed.
+    """
+    # Each brings libraries that take a while to import.
+    found: list[Watcher] = []
+    if video is not None:
+        from .video import Video
+
+        found.append(Video(video))
+    if recording is not None:
+        from .recording import Recording
+
+        found.append(Recording(recording))
+    return found
 
 
 def writable_file(file: str | Path, option: str, suffix: str) -> Path:

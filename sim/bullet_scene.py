@@ -5,51 +5,17 @@ It knows nothing about who stands there, so it serves whatever is loaded.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from .bullet_engine import engine
 from .camera import Camera
+from .shapes import Place, Quaternion, Shape, Vector
 
 LIGHT = (-2.0, 3.0, 6.0)
 """Where the light comes from, world axes."""
-
-Vector = tuple[float, float, float]
-Quaternion = tuple[float, float, float, float]
-Place = tuple[Vector, Quaternion]
-"""Position in m and orientation (x, y, z, w)."""
-
-
-@dataclass(frozen=True)
-class Shape:
-    """A visible shape, fixed to a part.
-
-    Attributes
-    ----------
-    part : str
-        Name of the part it belongs to: ``body/link``, or ``scenery/number``.
-    kind : str
-        ``"box"``, ``"sphere"``, ``"cylinder"``, ``"capsule"`` or ``"mesh"``.
-    size : (float, float, float)
-        Edges of a box; length (along z, without caps) and radius of a cylinder or a capsule;
-        radius of a sphere; scale of a mesh. m.
-    place : (position, orientation)
-        In the part's frame; of the middle of the shape.
-    colour : (r, g, b, a)
-        In [0, 1].
-    file : str
-        Of a mesh.
-    """
-
-    part: str
-    kind: str
-    size: Vector
-    place: Place
-    colour: tuple[float, float, float, float]
-    file: str = ""
-
+SKY_HIGH, SKY_LOW = np.array([198.0, 212.0, 224.0]), np.array([242.0, 244.0, 246.0])
+"""Colours behind everything, at the upper and the lower edge of a picture."""
 
 _KINDS = {
     engine.GEOM_BOX: "box",
@@ -92,9 +58,16 @@ def look_at(
     return Camera(np.reshape(view, (4, 4)).T, np.reshape(projection, (4, 4)).T, width, height)
 
 
-def photograph(client: int, camera: Camera) -> NDArray[np.uint8]:
-    """Return what a camera sees, rendered in software, uint8, shape (height, width, 3)."""
-    pixels = engine.getCameraImage(
+def photograph(client: int, camera: Camera) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
+    """Return what a camera sees, rendered in software.
+
+    Returns
+    -------
+    picture : ndarray, uint8, shape (height, width, 3)
+    actors : ndarray, bool, shape (height, width)
+        Where a body that has a name is seen: not floor, walls or other scenery, nor nothing.
+    """
+    _, _, pixels, _, seen = engine.getCameraImage(
         camera.width,
         camera.height,
         camera.view.T.ravel().tolist(),
@@ -103,9 +76,20 @@ def photograph(client: int, camera: Camera) -> NDArray[np.uint8]:
         shadow=0,
         renderer=engine.ER_TINY_RENDERER,
         physicsClientId=client,
-    )[2]
-    shape = (camera.height, camera.width, 4)
-    return np.reshape(np.array(pixels, dtype=np.uint8), shape)[..., :3].copy()
+    )
+    size = (camera.height, camera.width)
+    picture = np.reshape(np.array(pixels, dtype=np.uint8), (*size, 4))[..., :3].copy()
+    body = np.reshape(seen, size)
+    share = np.linspace(0.0, 1.0, size[0])[:, None, None]
+    sky = (SKY_HIGH + share * (SKY_LOW - SKY_HIGH)).astype(np.uint8)
+    np.copyto(picture, sky, where=(body < 0)[..., None])
+    bodies = range(engine.getNumBodies(client))
+    named = [engine.getBodyUniqueId(index, client) for index in bodies]
+    actors = np.zeros(size, dtype=bool)
+    for uid in named:
+        if engine.getBodyInfo(uid, client)[1]:
+            actors |= body == uid
+    return picture, actors
 
 
 class Scene:
@@ -161,7 +145,5 @@ class Scene:
             else:  # the engine gives the centre of mass instead of the frame
                 centre = engine.getBasePositionAndOrientation(body, client)
                 inertial = engine.getDynamicsInfo(body, -1, client)[3:5]
-                found[name] = engine.multiplyTransforms(
-                    *centre, *engine.invertTransform(*inertial)
-                )
+                found[name] = engine.multiplyTransforms(*centre, *engine.invertTransform(*inertial))
         return found

@@ -6,6 +6,7 @@ watched; a run is the same whether or not anybody looks.
 
 from __future__ import annotations
 
+import itertools
 import math
 import time
 
@@ -17,7 +18,7 @@ from .bullet_scene import look_at, photograph
 from .camera import Camera
 from .world import World
 
-WALL_HEIGHT, WALL_THICKNESS = 0.25, 0.10
+WALL_HEIGHT, WALL_THICKNESS, WALL_PIECE = 0.25, 0.10, 2.0
 SOLID_HEIGHT = 0.8
 TILE = 1.0
 """Side of the floor's tiles, m: without them one cannot see that the pair moves."""
@@ -81,24 +82,17 @@ class Viewer:
         if world.corridor:
             half = world.corridor.width / 2.0
             bottom, top = -half, half
-            for side in (-1.0, 1.0):
+            # In pieces: what a triangle costs to render is the rectangle around it.
+            pieces = math.ceil((right - left) / WALL_PIECE)
+            length = (right - left) / pieces
+            for piece, side in itertools.product(range(pieces), (-1.0, 1.0)):
+                y = side * (half + WALL_THICKNESS / 2.0)
                 self._box(
-                    ((left + right) / 2.0, side * (half + WALL_THICKNESS / 2.0), WALL_HEIGHT / 2.0),
-                    (right - left, WALL_THICKNESS, WALL_HEIGHT),
+                    (left + (piece + 0.5) * length, y, WALL_HEIGHT / 2.0),
+                    (length, WALL_THICKNESS, WALL_HEIGHT),
                     WALL,
                 )
-        for row in range(math.ceil((top - bottom) / TILE)):
-            for column in range(math.ceil((right - left) / TILE)):
-                depth = min(TILE, top - bottom - row * TILE)
-                self._box(
-                    (
-                        left + (column + 0.5) * TILE,
-                        bottom + row * TILE + depth / 2.0,
-                        -0.01,
-                    ),
-                    (TILE, depth, 0.02),
-                    FLOOR_DARK if (row + column) % 2 else FLOOR,
-                )
+        self._floor(left, right, bottom, top)
         for thing in world.obstacles:
             height = SOLID_HEIGHT if thing.solid else 0.004
             self._show(
@@ -111,6 +105,28 @@ class Viewer:
                 ),
                 (thing.x, thing.y, height / 2.0),
             )
+
+    def _floor(self, left: float, right: float, bottom: float, top: float) -> None:
+        """Tile a rectangle: one mesh a colour, which renders in half the time of boxes."""
+        columns = np.arange(math.ceil((right - left) / TILE))
+        rows = np.arange(math.ceil((top - bottom) / TILE))
+        column, row = (axis.ravel() for axis in np.meshgrid(columns, rows))
+        west, south = left + column * TILE, bottom + row * TILE
+        east, north = np.minimum(west + TILE, right), np.minimum(south + TILE, top)
+        corners = np.stack([west, south, east, south, east, north, west, north], axis=-1)
+        for odd, colour in ((0, FLOOR), (1, FLOOR_DARK)):
+            ground = corners[(column + row) % 2 == odd].reshape(-1, 2)
+            vertices = np.concatenate((ground, np.zeros((len(ground), 1))), axis=-1)
+            first = np.arange(0, len(ground), 4)[:, None]
+            shape = engine.createVisualShape(
+                engine.GEOM_MESH,
+                vertices=vertices.tolist(),
+                indices=np.add(first, [0, 1, 2, 0, 2, 3]).ravel().tolist(),
+                normals=[(0.0, 0.0, 1.0)] * len(ground),
+                rgbaColor=colour,
+                physicsClientId=self._client,
+            )
+            self._show(shape, (0.0, 0.0, 0.0))
 
     def _box(
         self,
@@ -179,13 +195,11 @@ class Viewer:
             x, y, _ = self._target
             ahead = (x + TOP_AHEAD, 0.0 if self.world.corridor else y, 0.0)
             return look_at(ahead, TOP_DISTANCE, 0.0, -89.99, TOP_FIELD, size)
-        return look_at(
-            self._target, CAMERA_DISTANCE, self._yaw, CAMERA_PITCH, CAMERA_FIELD, size
-        )
+        return look_at(self._target, CAMERA_DISTANCE, self._yaw, CAMERA_PITCH, CAMERA_FIELD, size)
 
-    def picture(self, width: int, height: int, kind: str = "chase") -> NDArray[np.uint8]:
-        """Return what a `camera` sees, uint8, shape (height, width, 3)."""
-        return photograph(self._client, self.camera(kind, width, height))
+    def picture(self, width: int, height: int) -> NDArray[np.uint8]:
+        """Return what the chase camera sees, uint8, shape (height, width, 3)."""
+        return photograph(self._client, self.camera("chase", width, height))[0]
 
     def close(self) -> None:
         """Free the world. May be called twice."""

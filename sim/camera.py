@@ -48,9 +48,7 @@ class Camera:
         clip = place @ matrix[:, :3].T + matrix[:, 3]
         depth = np.where(clip[..., 3:] > 1e-6, clip[..., 3:], np.nan)
         right, up = np.moveaxis(clip[..., :2] / depth, -1, 0)
-        return np.stack(
-            ((right + 1.0) / 2.0 * self.width, (1.0 - up) / 2.0 * self.height), axis=-1
-        )
+        return np.stack(((right + 1.0) / 2.0 * self.width, (1.0 - up) / 2.0 * self.height), axis=-1)
 
 
 def level_camera(
