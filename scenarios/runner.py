@@ -191,7 +191,10 @@ def _episode(
         when = f"t = {len(trace) * scenario.rates.period:g} s"
         return "aborted", f"{actor} {name!r} failed at {when}: {type(failure).__name__}: {failure}"
     last = infos["human"]
-    return "goal" if last["goal"] else "collision" if last["collision"] else "time", None
+    reasons = [why for why in ("goal", "collision") if last[why]]
+    if last["grip_lost"] and env.plant_state.over:
+        reasons.append("grip lost")
+    return (reasons or ["time"])[0], None
 
 
 class _Row:

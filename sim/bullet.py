@@ -1,26 +1,33 @@
-"""The PyBullet plant: base and human as rigid bodies, the force read from the grip between them."""
+"""The PyBullet plant: base and human as rigid bodies, the force read from what joins them."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import fields
-from typing import TypeVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .bullet_engine import connect, disconnect, engine, force_on_parent, load_driven
-from .bullet_view import Viewer
-from .drive import DriveParameters, SlipDrive
+from .anthropometry import BodyParameters
+from .bullet_bodies import Base, Chain, SlipBase, State
+from .bullet_coupling import CouplingParameters, Load
+from .bullet_engine import connect, disconnect, engine
+from .bullet_grip import Hands
+from .bullet_view import Look, Viewer
+from .bullet_wheels import WheelBase
+from .drive import DriveParameters
 from .errors import InputError, SimulationError
+from .gait import Gait, GaitParameters
+from .grip import GripParameters
+from .human_body import human_body
 from .motion import Array
-from .plant import HUMAN_PLACE, PlantState, Rates
-from .walker import Arm, Walker, WalkerParameters
+from .parameters import parameters
+from .plant import PlantState, Rates
+from .robot import RobotParameters, robot_of
+from .walker import Walker, WalkerParameters
 from .world import World
+from .wrench import SensorMount
 
-BASE_JOINTS = ("x", "y", "yaw")
-HUMAN_JOINTS = ("x", "y", "yaw", "shoulder", "elbow")
 MAX_HELD = 3
 """Physics steps for which the human's joint forces are held at most: muscles need no 240 Hz."""
 SOLVER_ITERATIONS = 10
@@ -29,107 +36,160 @@ MAX_SPEED = 5.0
 """Speed of a body beyond which the simulation counts as diverged, m/s (inferred)."""
 MAX_RATE = 20.0
 """Turning rate of a body beyond which the simulation counts as diverged, rad/s (inferred)."""
-
-P = TypeVar("P", DriveParameters, WalkerParameters)
-
-
-def _parameters(name: str, kind: type[P], given: P | Mapping[str, float] | None) -> P:
-    if not isinstance(given, Mapping):
-        return given if given is not None else kind()
-    known = [field.name for field in fields(kind)]
-    if unknown := [key for key in given if key not in known]:
-        raise InputError(f"{name}.{unknown[0]}: unknown key; known: {', '.join(known)}")
-    return kind(**given)
+NO_WRENCH = (0.0, 0.0, 0.0)
 
 
 class BulletPlant:
-    """A mobile base and a walking human, hand on handle, in a PyBullet world of their own.
+    """A mobile base and a walking human who hold on to each other, in a world of their own.
 
-    Both stand on planar joints (x, y, yaw). The base is driven by `SlipDrive`, trunk and arm by
-    `Walker`; a point-to-point constraint joins hand and handle, and its reaction is the force.
+    The human's trunk, and with the drive "slip" the base too, stand on planar joints (x, y,
+    yaw). Parameters may be given as their dataclass or as a mapping of its fields.
     Walls and obstacles are not in this world: `cowalk.sim.world.Clearance` judges collisions.
 
     Parameters
     ----------
     rates : Rates
-    drive : DriveParameters or mapping, optional
-    walker : WalkerParameters or mapping, optional
+    drive : DriveParameters
+    body : BodyParameters
+    walker : WalkerParameters
+    gait : GaitParameters
+    grip : GripParameters
+    coupling : CouplingParameters
+    robot : RobotParameters
+    mount : SensorMount
+        Where the force-torque sensor sits (`PlantState.wrench_on_sensor`).
     gui : bool
         Show the run in a window, at no more than real time; `reset` opens it.
 
     Raises
     ------
     InputError
-        If a parameter is unknown; from `reset`, if the window cannot be opened.
+        If a parameter is not right; from `reset`, if the window cannot be opened.
     """
 
     def __init__(
         self,
         rates: Rates,
-        drive: DriveParameters | Mapping[str, float] | None = None,
-        walker: WalkerParameters | Mapping[str, float] | None = None,
+        drive: DriveParameters | None = None,
+        body: BodyParameters | None = None,
+        walker: WalkerParameters | None = None,
+        gait: GaitParameters | None = None,
+        grip: GripParameters | None = None,
+        coupling: CouplingParameters | None = None,
+        robot: RobotParameters | None = None,
+        mount: SensorMount | None = None,
         gui: bool = False,
     ) -> None:
         self._rates = rates
-        # Whole numbers of held steps in a control step: a new intent acts at once.
-        self._held = max(n for n in range(1, MAX_HELD + 1) if rates.substeps % n == 0)
         step = 1.0 / rates.physics
-        drive = _parameters("drive", DriveParameters, drive)
-        walker = _parameters("walker", WalkerParameters, walker)
+        drive = parameters("drive", DriveParameters, drive)
+        self._grip = grip = parameters("grip", GripParameters, grip)
+        coupling = parameters("coupling", CouplingParameters, coupling)
+        human_parameters = parameters("body", BodyParameters, body)
+        walker = parameters("walker", WalkerParameters, walker)
+        gait = parameters("gait", GaitParameters, gait)
+        self._mount = parameters("mount", SensorMount, mount)
+        robot = parameters("robot", RobotParameters, robot)
+        held = robot_of(robot, human_parameters.hand, coupling.kind)
+        self._handle = held.handle
+        both = human_parameters.hand == "both"
+        carried = coupling.kind == "stretcher"
+        if drive.kind == "wheels" and robot.urdf is not None:
+            raise InputError("drive.kind = 'wheels': only the robot that ships has wheels")
 
         self._client = client = connect()
         engine.setTimeStep(step, client)
         engine.setPhysicsEngineParameter(
-            numSolverIterations=SOLVER_ITERATIONS, physicsClientId=client
-        )
-        self._base = base = load_driven(client, "base.urdf", "handle", BASE_JOINTS)
-        self._human = human = load_driven(client, "human.urdf", "hand", HUMAN_JOINTS)
-        self._grip = engine.createConstraint(
-            base.body,
-            base.grip_link,
-            human.body,
-            human.grip_link,
-            engine.JOINT_POINT2POINT,
-            (0.0, 0.0, 0.0),
-            base.grip_pivot,
-            human.grip_pivot,
+            numSolverIterations=SOLVER_ITERATIONS,
+            solverResidualThreshold=0.0,  # its default ends the iteration 0.04 N too early
             physicsClientId=client,
         )
-        self._drive = SlipDrive(drive, base.mass, base.yaw_inertia, step)
-        shoulder, elbow, hand = (human.origins[n] for n in ("upper_arm", "forearm", "hand"))
-        arm = Arm((shoulder[0], shoulder[1]), elbow[0] - shoulder[0], hand[0] - elbow[0])
-        handle = base.origins["handle"]
-        self._walker = Walker(
-            walker, arm, HUMAN_PLACE, (handle[0], handle[1]), human.mass, step * self._held
+        base_type = WheelBase if drive.kind == "wheels" else SlipBase
+        self._base: Base = base_type(client, held.rigid, drive, step)
+        self._load = Load(coupling, client, self._base, held.handle, both) if carried else None
+        handles = self._load.handles if self._load else held.handles
+        self._body = human = human_body(human_parameters, handles)
+        self._human = Chain(client, human.urdf(), human.joints)
+        thing = self._load.slab if self._load else self._base
+        self._hands = Hands(
+            grip, client, thing, self._human, human, handles, handles[0] if carried else held.handle
         )
+        # Whole numbers of held steps in a control step: a new intent acts at once.
+        most = 1 if self._hands.yields else MAX_HELD
+        self._held = max(n for n in range(1, most + 1) if rates.substeps % n == 0)
+        # What is held rides on the base: the human's place follows from its own.
+        x, y, yaw = human.place
+        if self._load:
+            x, y = x + held.handle[0], y + held.handle[1]
+        self._place = (x, y, yaw)
+        period = step * self._held
+        self._gait = Gait(gait, period)
+        self._walker = Walker(walker, human, self._place, self._gait, self._human.mass, period)
+        self._look = Look(held.urdf, human, coupling if self._load else None, held.handle)
         self._gui = gui
         self._viewer: Viewer | None = None
         self._world: World | None = None
-        self._base_state: tuple[float, ...] = ()
-        self._human_state: tuple[float, ...] = ()
+        self._base_state: State = ()
+        self._human_state: State = ()
 
     def reset(self, world: World, rng: np.random.Generator) -> PlantState:
         """See `Plant.reset`."""
         self._world = world
         x, y, yaw = world.start
         cos, sin = math.cos(yaw), math.sin(yaw)
-        place_x, place_y, place_yaw = HUMAN_PLACE
-        base = (x, y, yaw)
-        human = (
-            x + cos * place_x - sin * place_y,
-            y + sin * place_x + cos * place_y,
-            yaw + place_yaw,
-            *self._walker.posture,
-        )
-        for body, angles in ((self._base, base), (self._human, human)):
-            for joint, angle in zip(body.joints, angles, strict=True):
-                engine.resetJointState(body.body, joint, angle, 0.0, self._client)
-        self._base_state = base + (0.0,) * len(base)
-        self._human_state = human + (0.0,) * len(human)
-        self._drive.reset()
+
+        def beside(place: tuple[float, float, float]) -> State:
+            right, up, turn = place
+            return x + cos * right - sin * up, y + sin * right + cos * up, yaw + turn
+
+        base, human = (x, y, yaw), (*beside(self._place), *self._body.posture)
+        self._base.reset()
+        self._hands.reset()
         self._walker.reset()
+        self._gait.reset(rng)
+        load: State = ()
+        if self._load:
+            load = (*beside((*self._load.handle[:2], 0.0)), 0.0, 0.0, 0.0)
+        self._put(base + (0.0,) * 3, human + (0.0,) * len(human), load)
+        self._stopped = False
         self._watch()
-        return self._state(np.zeros((self._rates.samples, 2)))
+        return self._state(np.zeros((self._rates.samples, 6)))
+
+    def _put(self, base: State, human: State, load: State) -> None:
+        n = len(human) // 2
+        self._base.put(base[:3], base[3:])
+        self._human.put(human[:n], human[n:])
+        if self._load:
+            self._load.slab.put(load[:3], load[3:])
+        self._base_state, self._human_state, self._load_state = base, human, load
+
+    def save(self) -> Any:
+        """Return the whole state within an episode, for `restore`: opaque, and never changed."""
+        return (
+            self._base_state,
+            self._human_state,
+            self._load_state,
+            self._base.save(),
+            self._hands.save(),
+            self._walker.save(),
+            self._stopped,
+            self._world,
+        )
+
+    def restore(self, saved: Any) -> PlantState:
+        """Go on from a saved state of this plant, or one built alike, bit for bit.
+
+        Returns
+        -------
+        PlantState
+            The state there; its force samples are zero, for none has been taken yet.
+        """
+        base, human, load, drive, hands, walker, self._stopped, self._world = saved
+        self._put(base, human, load)
+        self._base.restore(drive)
+        self._hands.restore(hands)
+        self._walker.restore(walker)
+        return self._state(np.zeros((self._rates.samples, 6)))
 
     def step(
         self, twist_command: tuple[float, float], hand_force: tuple[float, float]
@@ -140,67 +200,78 @@ class BulletPlant:
         for name, pair in (("twist_command", (speed, rate)), ("hand_force", push)):
             if not (math.isfinite(pair[0]) and math.isfinite(pair[1])):
                 raise SimulationError(f"{name} = {pair} is not finite")
-        self._drive.command(speed, rate)
+        if self._stopped:
+            speed = rate = 0.0
+        self._base.command(speed, rate)
+        hands, load = self._hands, self._load
+        if not hands.held:
+            push = (0.0, 0.0)  # there is nothing to push
 
-        # This loop is the cost of a run: names are bound here, and engine calls take all their
-        # arguments by position, which makes the joint call 1 us faster than keywords do.
-        client, grip, kind = self._client, self._grip, engine.JOINT_POINT2POINT
-        base_body, base_joints = self._base.body, self._base.joints
-        human_body, human_joints = self._human.body, self._human.joints
-        base_zeros, human_zeros = (0.0,) * len(base_joints), (0.0,) * len(human_joints)
-        wrench, forces = self._drive.wrench, self._walker.forces
-        apply, torque = engine.setJointMotorControlArray, engine.TORQUE_CONTROL
-        advance, read, reaction = (
-            engine.stepSimulation,
-            engine.getJointStates,
-            engine.getConstraintState,
-        )
+        # This loop is the cost of a run: names are bound here.
+        client, advance = self._client, engine.stepSimulation
+        drive, read = self._base.drive, self._base.read
+        apply, read_human = self._human.apply, self._human.read
+        forces, acts = self._walker.forces, hands.acts
+        measure = load.read if load else hands.read
+        check = load is not None and self._grip.release_force is not None
         rates, held = self._rates, self._held
         sampled, substep = rates.physics // rates.sensor, 0
         samples = []
         base, human = self._base_state, self._human_state
-        _, _, yaw, vx, vy, rate = base
-        cos, sin = math.cos(yaw), math.sin(yaw)
+        cos, sin = math.cos(base[2]), math.sin(base[2])
+        extra = on_load = NO_WRENCH
         for _ in range(rates.substeps // held):
             human_forces = forces(base, human, cos, sin, push)
+            if acts:
+                if load:
+                    on_load = hands.act(load.slab.read(), human, human_forces)
+                else:
+                    extra = hands.act(base, human, human_forces)
             for _ in range(held):
-                along, across, turn = wrench(cos * vx + sin * vy, cos * vy - sin * vx, rate)
-                base_forces = (cos * along - sin * across, sin * along + cos * across, turn)
-                z = base_zeros
-                apply(base_body, base_joints, torque, z, z, base_forces, z, z, client)
-                z = human_zeros
-                apply(human_body, human_joints, torque, z, z, human_forces, z, z, client)
+                drive(base, cos, sin, extra)
+                apply(human_forces)
+                if load and acts:
+                    load.slab.apply(on_load)
                 advance(client)
-                (x, vx, _, _), (y, vy, _, _), (yaw, rate, _, _) = read(
-                    base_body, base_joints, client
-                )
-                cos, sin = math.cos(yaw), math.sin(yaw)
+                base = read()
+                cos, sin = math.cos(base[2]), math.sin(base[2])
                 substep += 1
                 if substep % sampled == 0:
-                    fx, fy, _ = force_on_parent(kind, reaction(grip, client))
-                    samples.append((cos * fx + sin * fy, cos * fy - sin * fx))
-            base = (x, y, yaw, vx, vy, rate)
-            joints = read(human_body, human_joints, client)
-            human = (*[j[0] for j in joints], *[j[1] for j in joints])
+                    samples.append(measure(cos, sin))
+                    if check:
+                        hands.read(cos, sin)
+            human = read_human()
         self._base_state, self._human_state = base, human
+        if load:
+            self._load_state = load.slab.read()
+        if not hands.held and self._grip.on_loss == "stop":
+            self._stopped = True
         self._watch()
         return self._state(np.array(samples))
 
-    def _state(self, force: Array) -> PlantState:
+    def _state(self, wrench: Array) -> PlantState:
         x, y, yaw, vx, vy, rate = self._base_state
-        human = self._human_state
-        for name, velocity in (("base", (vx, vy, rate)), ("human", human[5:8])):
+        human, n = self._human_state, len(self._human_state) // 2
+        bodies = [("base", (vx, vy, rate)), ("human", human[n : n + 3])]
+        if self._load:
+            bodies.append(("load", self._load_state[3:]))
+        for name, velocity in bodies:
             # Written so that a NaN fails it.
             if not (math.hypot(*velocity[:2]) < MAX_SPEED and abs(velocity[2]) < MAX_RATE):
                 raise SimulationError(
                     f"the {name} moves at ({velocity[0]:.3g}, {velocity[1]:.3g}) m/s and "
                     f"{velocity[2]:.3g} rad/s: diverged (beyond {MAX_SPEED} m/s, {MAX_RATE} rad/s)"
                 )
+        lost = not self._hands.held
         return PlantState(
             pose=(x, y, yaw),
             twist=(math.cos(yaw) * vx + math.sin(yaw) * vy, rate),
             human_pose=(human[0], human[1], human[2]),
-            force_on_base=force,
+            force_on_base=wrench[:, :2],
+            wrench_on_base=wrench,
+            mount=self._mount,
+            grip_held=not lost,
+            over=lost and self._grip.on_loss == "end",
         )
 
     def bare_step(self) -> None:
@@ -210,7 +281,7 @@ class BulletPlant:
     @property
     def handle(self) -> tuple[float, float, float]:
         """Where the handle is, base axes, m."""
-        return self._base.origins["handle"]
+        return self._handle
 
     def viewer(self) -> Viewer:
         """Return what shows this plant, posed as it is now."""
@@ -221,8 +292,12 @@ class BulletPlant:
         if self._viewer is None or self._viewer.world != self._world:
             if self._viewer is not None:
                 self._viewer.close()
-            self._viewer = Viewer(self._world, self._gui)
-        self._viewer.show(self._base_state[:3], self._human_state[:5])
+            self._viewer = Viewer(self._world, self._look, self._gui)
+        n = len(self._human_state) // 2
+        phase = self._gait.phase if self._gait.enabled else None
+        x, y, yaw, vx, vy, _ = self._base_state
+        speed = math.cos(yaw) * vx + math.sin(yaw) * vy
+        self._viewer.show((x, y, yaw), self._human_state[:n], self._load_state[:3], phase, speed)
         return self._viewer
 
     def _watch(self) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import inspect
 from typing import Any, ClassVar
 
@@ -37,8 +38,9 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
     sits in the seats.
 
     Rewards are those of `cowalk.sim.reward.Reward`. An episode terminates when the base
-    reaches the end of the path (``goal``) or a body touches something solid (``collision``),
-    and is truncated after ``duration``. Infos hold what a scoring needs and no seat may see.
+    reaches the end of the path (``goal``), a body touches something solid (``collision``) or
+    the plant, having lost its grip, asks for it (``grip_lost``). It is truncated after
+    ``duration``. Infos hold what a scoring needs and no seat may see.
 
     Parameters
     ----------
@@ -163,7 +165,12 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self._state = self._plant.reset(self.world, plant_rng)
         self._measured = self._sensor.measure(self._state.force_on_base)
         clearance, _ = self._clearance(self._state.pose, self._state.human_pose)
-        self._info = {"clearance": clearance, "goal": False, "collision": False}
+        self._info = {
+            "clearance": clearance,
+            "goal": False,
+            "collision": False,
+            "grip_lost": False,
+        }
         return self._observations(), {seat: dict(self._info) for seat in SEATS}
 
     def step(
@@ -197,9 +204,14 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         station = self._relative[0]
         goal = station >= self.world.path.length
         collision = solid_clearance < 0.0
-        self._info = {"clearance": clearance, "goal": goal, "collision": collision}
+        self._info = {
+            "clearance": clearance,
+            "goal": goal,
+            "collision": collision,
+            "grip_lost": not state.grip_held,
+        }
         rewards = self._reward(state, self._relative, clearance, collision, goal)
-        over = goal or collision
+        over = goal or collision or state.over
         late = not over and self._step_count >= self.steps_per_episode
         if over or late:
             self.agents = []
@@ -212,6 +224,43 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
             dict.fromkeys(SEATS, late),
             {seat: dict(self._info) for seat in SEATS},
         )
+
+    def save(self) -> Any:
+        """Return the whole state within an episode, for `restore`: opaque, and never changed."""
+        plant = self._plant.save()
+        # As one tuple, so that what they share stays shared.
+        return plant, copy.deepcopy(
+            (
+                self.agents,
+                self._step_count,
+                self._sensor,
+                self._generator,
+                self._state,
+                self._measured,
+                self._info,
+            )
+        )
+
+    def restore(self, saved: Any) -> dict[str, Observation]:
+        """Go on from a saved state of this environment, bit for bit.
+
+        Returns
+        -------
+        dict of Observation
+            The observations there.
+        """
+        plant, own = saved
+        self._plant.restore(plant)
+        (
+            self.agents,
+            self._step_count,
+            self._sensor,
+            self._generator,
+            self._state,
+            self._measured,
+            self._info,
+        ) = copy.deepcopy(own)
+        return self._observations()
 
     @property
     def measured_force(self) -> Array:
