@@ -17,7 +17,7 @@ from cowalk.sim.errors import InputError
 from cowalk.sim.motion import compose
 from cowalk.sim.shapes import Place, plain_figures, plain_places
 
-from .figures_style import AGREED, AUTOMATION, HUMAN, HUMAN_FORWARD, MUTED
+from .figures_style import AUTOMATION, HUMAN, HUMAN_FORWARD, MUTED
 from .recording_shapes import archetypes
 from .results import UNITS
 from .watching import Filmed, arc_points, writable_file
@@ -33,6 +33,9 @@ TIMELINE = "time"
 FORCE = "#FFC20A"
 METRES_PER_NEWTON = 0.1
 """Length of the force arrow."""
+EYE = (-3.0, 2.0, 2.3)
+"""From where the scene is seen at first, world axes, m; then it follows the base."""
+BACKGROUND = (52, 58, 66)
 HANDLE = (0.0, 0.0, 1.0)
 """Where the force is drawn on a plant without a handle, base axes, m."""
 FLOOR_HEIGHT = 0.01
@@ -51,8 +54,8 @@ CURVES: dict[str, tuple[str, str, str]] = {
     "stubbornness/turning/true": ("true_stubbornness_omega", "turning, true", "#F0BE9F"),
     "stubbornness/turning/believed": ("est_stubbornness_omega", "turning, believed", HUMAN),
     "utility/target": ("target_utility", "target utility", AUTOMATION),
-    "speed/forward": ("v", "forward, m/s", AGREED),
-    "speed/turning": ("omega", "turning, rad/s", MUTED),
+    "speed/forward": ("v", "forward, m/s", "#56B4E9"),
+    "speed/turning": ("omega", "turning, rad/s", "#009E73"),
 }
 """By entity: trace column, name in the legend, colour."""
 
@@ -158,7 +161,12 @@ class Recording:
                 ("speed", "Speed"),
             )
         ]
-        scene = layout.Spatial3DView(origin="world", name="Scene")
+        eye = layout.EyeControls3D(
+            position=EYE, look_target=(0.5, -0.3, 0.8), tracking_entity="world/base/body"
+        )
+        scene = layout.Spatial3DView(
+            origin="world", name="Scene", eye_controls=eye, line_grid=False, background=BACKGROUND
+        )
         return layout.Blueprint(
             layout.Horizontal(scene, layout.Vertical(*plots), column_shares=[3, 2]),
             layout.TimePanel(timeline=TIMELINE, state="collapsed"),
@@ -185,7 +193,11 @@ class Recording:
 
     def _show_bodies(self, env: CowalkEnv) -> None:
         """Log the place of every part that has moved."""
-        places = self._scene.places() if self._scene else plain_places(env.plant_state)
+        if self._scene is not None and isinstance(env.plant, Filmed):
+            env.plant.viewer()  # poses what the scene then finds
+            places = self._scene.places()
+        else:
+            places = plain_places(env.plant_state)
         for part, place in places.items():
             if self._shown.get(part) != place:
                 self._shown[part] = place

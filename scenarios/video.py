@@ -84,9 +84,9 @@ class Video:
         rate = f"{scenario.rates.control}/{self._every}"
         raw = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{WIDTH}x{HEIGHT}", "-r", rate]
         packed = ["-c:v", "libx264", "-preset", "veryfast", "-crf", "23", "-pix_fmt", "yuv420p"]
-        # Written in fragments that play by themselves, joined at the end: nothing is lost if
-        # even the encoder is killed.
-        packed += ["-movflags", "hybrid_fragmented", "-fflags", "+bitexact"]
+        # Written in fragments of 2 s that play by themselves, joined at the end: what there is
+        # can be played even if the encoder is killed.
+        packed += ["-g", str(2 * FRAMES_PER_SECOND), "-movflags", "hybrid_fragmented"]
         self._process = subprocess.Popen(
             [self._encoder, "-y", "-v", "error", *raw, "-i", "-", *packed, str(self.file)],
             stdin=subprocess.PIPE,

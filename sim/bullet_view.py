@@ -240,7 +240,10 @@ class Viewer:
 
     def _put(self, body: int, place: tuple[float, ...]) -> None:
         turn = engine.getQuaternionFromEuler((0.0, 0.0, place[2]))
-        engine.resetBasePositionAndOrientation(body, (*place[:2], 0.0), turn, self._client)
+        # The engine places the root link's centre of mass, not its frame.
+        inertial = engine.getDynamicsInfo(body, -1, self._client)[3:5]
+        centre = engine.multiplyTransforms((*place[:2], 0.0), turn, *inertial)
+        engine.resetBasePositionAndOrientation(body, *centre, self._client)
 
     def _stepped(self, place: tuple[float, ...], speed: float) -> float:
         """Return the phase of the stride after walking here from where one was last seen."""
