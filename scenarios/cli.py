@@ -102,7 +102,7 @@ def run(
     with progress_bar(loaded.name) as progress:
         result = run_scenario(loaded, progress, watching, gui)
     result.write(folder)
-    written = {"video": video, "recording": rerun}
+    written = {"video": video, "rerun": rerun}
     files = {what: str(file) for what, file in written.items() if file is not None}
     if as_json:
         emit_json(result.summary | {"folder": str(folder), "passed": result.passed} | files)
@@ -156,11 +156,11 @@ def _report(result: RunResult, folder: Path, files: dict[str, str]) -> None:
     if picture.exists():
         files = {"picture": str(picture)} | files
     for what, file in files.items():
-        print(f"{what + ':':<10} {file}")
-    print(f"ended by:  {summary['end']}")
+        print(f"{what + ':':<9} {file}")
+    print(f"ended by: {summary['end']}")
     factor, wall = summary["real_time_factor"], summary["wall_time_s"]
     if factor is not None:
-        print(f"speed:     {factor:.0f} times real time ({wall:.2f} s)")
+        print(f"speed:    {factor:.0f} times real time ({wall:.2f} s)")
 
 
 @app.command(name="list", epilog="\b\nExamples:\n  cowalk list\n  cowalk list humans --json")

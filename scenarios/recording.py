@@ -35,6 +35,8 @@ METRES_PER_NEWTON = 0.1
 """Length of the force arrow."""
 EYE = (-3.0, 2.0, 2.3)
 """From where the scene is seen at first, world axes, m; then it follows the base."""
+FLUSH = 10.0
+"""At least so often what has been logged is written, s of the clock on the wall."""
 BACKGROUND = (52, 58, 66)
 HANDLE = (0.0, 0.0, 1.0)
 """Where the force is drawn on a plant without a handle, base axes, m."""
@@ -92,7 +94,13 @@ class Recording:
         rr = self._rr
         self._horizon = scenario.automation.negotiation.horizon
         name = f"{scenario.name}, seed {scenario.seed}"
-        self._stream = rr.RecordingStream("cowalk", recording_id=name, send_properties=False)
+        self._stream = rr.RecordingStream(
+            "cowalk",
+            recording_id=name,
+            send_properties=False,
+            # Rows are kept together: a chunk for each would make the file ten times as large.
+            batcher_config=rr.ChunkBatcherConfig(flush_tick=FLUSH),
+        )
         self._stream.set_log_tick_enabled(False)
         self._stream.set_log_time_enabled(False)
         self._stream.save(self.file, default_blueprint=self._blueprint())

@@ -172,8 +172,8 @@ def test_a_run_is_filmed_and_recorded_on_demand(cowalk, scenario_file, folder):
     watched = ("--video", "films/walk.mp4", "--rerun", "walk.rrd")
     code, out, err = cowalk("run", scenario_file(), "--set", "duration=0.2", *watched)
     assert (code, err) == (0, "")
-    assert "video:     films/walk.mp4" in out
-    assert "recording: walk.rrd" in out
+    assert "video:    films/walk.mp4" in out
+    assert "rerun:    walk.rrd" in out
     assert (folder / "films/walk.mp4").stat().st_size > 1000
     assert (folder / "walk.rrd").stat().st_size > 1000
     code, out, _ = cowalk("run", scenario_file(), "--json", "--set", "duration=0.2", *watched[:2])
