@@ -21,9 +21,8 @@ def show(picture: np.ndarray) -> None:
     """
     global _image
     from matplotlib import pyplot as plt
-    from matplotlib.backends import BackendFilter, backend_registry
 
-    if plt.get_backend().lower() not in backend_registry.list_builtin(BackendFilter.INTERACTIVE):
+    if plt.get_backend().lower() == "agg":  # what matplotlib falls back to
         raise InputError(
             "no window can be opened: there is no display, or no toolkit that matplotlib can draw "
             "windows with; run without the window"
