@@ -14,6 +14,7 @@ HUMANS: Registry[Human] = Registry(
         "escalating": "cowalk.agents.humans.escalating:EscalatingHuman",
     },
     "cowalk.humans",
+    methods=("reset", "act", "truth"),
 )
 
 AUTOMATIONS: Registry[Automation] = Registry(
@@ -24,4 +25,5 @@ AUTOMATIONS: Registry[Automation] = Registry(
         "always-yields": "cowalk.agents.automations.constant:AlwaysYields",
     },
     "cowalk.automations",
+    methods=("reset", "act", "belief"),
 )

@@ -23,6 +23,15 @@ def output(*arguments: str) -> str:
     return "\n".join(line.rstrip() for line in done.stdout.strip().splitlines())
 
 
+def measured(subject: str) -> str:
+    """Return a subject of the benchmarks as a table; only of those that do not time."""
+    sys.path.insert(0, str(ROOT))
+    from benchmarks.__main__ import SUBJECTS
+
+    rows = [f"| {what} | {value:.2g} | {unit} |" for what, value, unit in SUBJECTS[subject]()]
+    return "\n".join(("| measurement | value | unit |", "|---|---|---|", *rows))
+
+
 def quote(file: Path, name: str, text: str) -> None:
     """Put text between the markers ``<!-- name -->`` and ``<!-- /name -->`` of a document."""
     pattern = re.compile(rf"(<!-- {name} -->\n).*?(\n<!-- /{name} -->)", re.DOTALL)
@@ -53,6 +62,7 @@ def main() -> None:
         (images / "paper.png").write_bytes(Path(folder, "panels.png").read_bytes())
     quote(DOCS / "model.md", "paper", fenced(output("paper")))
     puddle = (ROOT / "scenarios" / "library" / "puddle.scenario.yaml").read_text().rstrip()
+    quote(DOCS / "plant.md", "contact-noise", measured("contact noise"))
     quote(DOCS / "scenarios.md", "puddle", fenced(puddle, "yaml"))
 
 

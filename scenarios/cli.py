@@ -5,7 +5,9 @@ Nothing but typer is imported before a command needs it, so that ``--help`` answ
 
 from __future__ import annotations
 
+import signal
 import sys
+from contextlib import redirect_stdout
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -99,7 +101,8 @@ def run(
     loaded = _load(scenario, options, assign or [])
     watching = watchers(video, rerun)
     folder = writable_folder(out if out is not None else Path("runs") / loaded.name)
-    with progress_bar(loaded.name) as progress:
+    # What a user's class prints must not end up in the JSON.
+    with progress_bar(loaded.name) as progress, redirect_stdout(sys.stderr):
         result = run_scenario(loaded, progress, watching, gui)
     result.write(folder)
     written = {"video": video, "rerun": rerun}
@@ -239,6 +242,8 @@ cli_studies.register(app)
 
 def main() -> None:
     """Run the command line and exit with its code."""
+    # A run that is told to stop keeps what it has, as after Ctrl-C.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     # Without arguments: the help, not a complaint.
     try:
         code = app(args=sys.argv[1:] or ["--help"], prog_name="cowalk", standalone_mode=False)

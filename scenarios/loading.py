@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.resources import files
@@ -133,6 +134,10 @@ def faults(file: str | Path) -> list[Fault]:
 
 
 def _read(file: Path) -> Document:
+    # `module:Class` is looked for beside the scenario, wherever it is run from.
+    folder = str(file.resolve().parent)
+    if folder not in sys.path:
+        sys.path.append(folder)
     try:
         return parse(file.read_text(encoding="utf-8"))
     except OSError as error:

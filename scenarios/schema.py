@@ -47,7 +47,7 @@ class Scenario(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    name: str
+    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9 ._-]*$")]
     description: str = ""
     seed: Annotated[int, Field(ge=0)] = 0
     duration: Annotated[float, Field(gt=0.0, allow_inf_nan=False)] = 30.0
@@ -57,6 +57,7 @@ class Scenario(BaseModel):
     world: World
     sensor: SensorParameters = SensorParameters()
     bounds: TwistBounds = TwistBounds()
+    force_limit: Annotated[float, Field(gt=0.0, allow_inf_nan=False)] = 30.0
     human: HumanComponent
     automation: AutomationComponent
     expect: dict[str, str] = Field(default_factory=dict)

@@ -21,8 +21,9 @@ from .motion import Array
 
 FORE_SLOPE = 0.30
 """Sine of the angle at which a relaxed forearm on a handle slants down (inferred)."""
-STEEPEST = 0.95
-"""Sine of the steepest slant of either link: steeper ones leave no lever seen from above."""
+STEEPEST = 0.90
+"""Sine of the steepest slant of either link: steeper ones leave no lever seen from above
+(inferred)."""
 SHOULDER_RANGE, ELBOW_RANGE = (-0.80, 2.70), (-2.55, -0.02)
 """Range of a left arm's joints in the horizontal plane, rad: the upper arm's azimuth from
 straight ahead, outwards positive, and the elbow's flexion (0 to about 145 degrees; American
@@ -128,6 +129,11 @@ class Arm:
                 f"({self.shoulder[0]:.2f}, {self.shoulder[1]:.2f}) m"
             )
         return self.side * shoulder, self.side * elbow
+
+    def span(self, elbow: float) -> float:
+        """Return the distance from shoulder to hand, seen from above, at an elbow angle, m."""
+        upper, fore = self.upper.length, self.fore.length
+        return math.sqrt(upper**2 + fore**2 + 2.0 * upper * fore * math.cos(elbow))
 
     def jacobian(self, shoulder: float, elbow: float) -> Array:
         """Return d(hand)/d(angles), shape (2, 2), m."""

@@ -5,7 +5,6 @@ A state is (x, y, yaw, vx, vy, rate) in world axes: m, rad, m/s, rad/s.
 
 from __future__ import annotations
 
-import math
 from typing import Any, Protocol
 
 from .bullet_engine import engine, load
@@ -167,17 +166,8 @@ class SlipBase(Slab):
         _, _, _, vx, vy, rate = state
         along, across, turn = self._wrench(cos * vx + sin * vy, cos * vy - sin * vx, rate)
         fx, fy, torque = extra
-        zeros = self.zeros
-        engine.setJointMotorControlArray(
-            self.body,
-            self.joints,
-            engine.TORQUE_CONTROL,
-            zeros,
-            zeros,
-            (cos * along - sin * across + fx, sin * along + cos * across + fy, turn + torque),
-            zeros,
-            zeros,
-            self.client,
+        self.apply(
+            (cos * along - sin * across + fx, sin * along + cos * across + fy, turn + torque)
         )
 
     def read(self) -> State:
@@ -186,9 +176,3 @@ class SlipBase(Slab):
             self.body, self.joints, self.client
         )
         return x, y, yaw, vx, vy, rate
-
-
-def turned(yaw: float, x: float, y: float) -> tuple[float, float]:
-    """Return a plane vector turned by an angle (rad)."""
-    cos, sin = math.cos(yaw), math.sin(yaw)
-    return cos * x - sin * y, sin * x + cos * y

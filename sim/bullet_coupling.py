@@ -8,7 +8,6 @@ from .bullet_bodies import Base, Slab
 from .bullet_engine import engine
 from .bullet_grip import Wrench
 from .errors import InputError
-from .robot import two_hands
 from .urdf import Rigid, Vector
 
 COUPLINGS = ("handle", "stretcher")
@@ -55,8 +54,6 @@ class Load:
     base : Base
     handle : (x, y, z)
         Where it is clamped, base axes, m.
-    both_hands : bool
-        Whether the human holds it with both hands.
     """
 
     def __init__(
@@ -65,7 +62,6 @@ class Load:
         client: int,
         base: Base,
         handle: Vector,
-        both_hands: bool,
     ) -> None:
         p = parameters
         self._client = client
@@ -73,9 +69,6 @@ class Load:
         inertia = p.mass * (p.length**2 + p.width**2) / 12.0
         rigid = Rigid(p.mass, (-p.length / 2.0, 0.0, handle[2]), inertia, {})
         self.slab = Slab(client, "load", rigid)
-        end = (-p.length, 0.0, handle[2])
-        self.handles = two_hands(end) if both_hands else (end,)
-        """Where each hand holds, load axes, m."""
         self._clamp = engine.createConstraint(
             base.body,
             base.link,

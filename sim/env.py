@@ -10,7 +10,7 @@ import numpy as np
 from gymnasium.spaces import Box, Dict
 from pettingzoo import ParallelEnv
 
-from .errors import SimulationError
+from .errors import InputError, SimulationError
 from .motion import Array, Path, TwistBounds
 from .observation import OBSTACLE_ROWS, Eyes, Observation
 from .plant import BASE_RADIUS, HUMAN_RADIUS, Plant, PlantState, Rates
@@ -21,6 +21,9 @@ from .world import SEATS, Clearance, Corridor, World
 
 STRAIGHT_CORRIDOR = World(path=Path(((0.0, 0.0), (20.0, 0.0))), corridor=Corridor(width=3.0))
 """The world of `parallel_env` without arguments: nothing in it, nothing to negotiate."""
+
+_SAVED = ("agents", "_step_count", "_sensor", "_generator", "_state", "_measured", "_info")
+"""What of an environment changes within an episode, beside its plant."""
 
 
 def _box(*shape: int) -> Box:
@@ -33,9 +36,9 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
     The human's action is the intended hand force on the base ``[fx, fy]``, base axes, N; the
     automation's is the twist to execute ``[v, omega]``, m/s and rad/s. Actions beyond the
     action space are clipped to it. Both seats perceive the same dict of named boxes: ``twist``
-    (2,), ``force`` (samples, 2), ``pose`` (3,), ``obstacles`` (8, 4) and ``time`` (1,), with
-    the meaning given in `cowalk.sim.observation.Observation`. Spaces do not depend on who
-    sits in the seats.
+    (2,), ``force`` (samples, 2), ``pose`` (3,) relative to the path, ``pose_world`` (3,),
+    ``obstacles`` (8, 4) and ``time`` (1,), as `cowalk.sim.observation.Observation` explains.
+    Spaces do not depend on who sits in the seats.
 
     Rewards are those of `cowalk.sim.reward.Reward`. An episode terminates when the base
     reaches the end of the path (``goal``), a body touches something solid (``collision``) or
@@ -91,6 +94,8 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
     ) -> None:
         self.world, self.rates, self.bounds, self.pace = world, rates, bounds, pace
         self.steps_per_episode = max(1, round(duration * rates.control))
+        if render_mode not in (None, *self.metadata["render_modes"]):
+            raise InputError(f"render_mode = {render_mode!r}; known: None, human, rgb_array")
         self.render_mode = render_mode
         constructor = PLANTS.get(plant)
         arguments = dict(plant_parameters or {})
@@ -110,6 +115,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
                 "twist": _box(2),
                 "force": _box(rates.samples, 2),
                 "pose": _box(3),
+                "pose_world": _box(3),
                 "obstacles": _box(OBSTACLE_ROWS, 4),
                 "time": _box(1),
             }
@@ -125,6 +131,8 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self._sensor = ForceSensor(sensor, np.random.default_rng())
         self._generator = np.random.default_rng()
         self._step_count = 0
+        self.applied = (0.0, 0.0), (0.0, 0.0)
+        """Force (N) and twist (m/s, rad/s) of the last step, clipped to the action spaces."""
 
     def observation_space(self, agent: str) -> Dict:
         """Return the observation space of a seat: the same for both."""
@@ -194,8 +202,11 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         SimulationError
             If an action is not finite, or the plant cannot go on.
         """
+        if not self.agents:
+            raise SimulationError("no episode is under way: call reset before step")
         force = self._bounded("human", actions["human"])
         twist = self._bounded("automation", actions["automation"])
+        self.applied = force, twist
         state = self._state = self._plant.step(twist, force)
         self._step_count += 1
         self._measured = self._sensor.measure(state.force_on_base)
@@ -227,39 +238,15 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
 
     def save(self) -> Any:
         """Return the whole state within an episode, for `restore`: opaque, and never changed."""
-        plant = self._plant.save()
-        # As one tuple, so that what they share stays shared.
-        return plant, copy.deepcopy(
-            (
-                self.agents,
-                self._step_count,
-                self._sensor,
-                self._generator,
-                self._state,
-                self._measured,
-                self._info,
-            )
-        )
+        # Copied as one, so that what its parts share stays shared.
+        own = copy.deepcopy({name: vars(self)[name] for name in _SAVED})
+        return self._plant.save(), own
 
     def restore(self, saved: Any) -> dict[str, Observation]:
-        """Go on from a saved state of this environment, bit for bit.
-
-        Returns
-        -------
-        dict of Observation
-            The observations there.
-        """
+        """Go on from a saved state of this environment, bit for bit; return what is seen there."""
         plant, own = saved
         self._plant.restore(plant)
-        (
-            self.agents,
-            self._step_count,
-            self._sensor,
-            self._generator,
-            self._state,
-            self._measured,
-            self._info,
-        ) = copy.deepcopy(own)
+        vars(self).update(copy.deepcopy(own))
         return self._observations()
 
     @property
@@ -307,6 +294,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
                 twist=twist.copy(),
                 force=force[seat].copy(),
                 pose=np.array(self._relative),
+                pose_world=np.array(state.pose),
                 obstacles=self._eyes[seat].look(state.pose),
                 time=time.copy(),
             )

@@ -90,7 +90,8 @@ def sway_at(percentile: float) -> tuple[float, float]:
 
 def step_frequency(speed: float, preferred: float = STEP_FREQUENCY[1]) -> float:
     """Return the step frequency at a speed (m/s), Hz, given that at the preferred speed."""
-    return preferred * (abs(speed) / PREFERRED_SPEED) ** CADENCE_EXPONENT
+    share: float = (abs(speed) / PREFERRED_SPEED) ** CADENCE_EXPONENT
+    return preferred * share
 
 
 class Sway(NamedTuple):

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from .anthropometry import SHOULDER_HEIGHT, BodyParameters, yaw_inertia
 from .arm import ELBOW_RANGE, SHOULDER_RANGE, Arm, arm_of
 from .urdf import Vector, hinge, link, planar
 
-BESIDE, BEHIND = (0.25, 0.35), (0.38, 0.0)
-"""Where the trunk keeps what it holds: ahead and to the holding side with one hand, straight
-ahead with both, m (inferred: led by hand, pushing a walker)."""
+BESIDE = (0.25, 0.15)
+"""Where a single hand rests, ahead of its shoulder and outwards, m: at 1.75 m and a handle at
+`USUAL_HEIGHT`; others bend their elbow as much (inferred: led by hand)."""
+USUAL_HEIGHT = 1.04
+RELAXED_ELBOW = -1.9
+"""Elbow angle of both hands on a bar ahead, rad: midway between straight and fully bent, so that
+the arms can give way to either side (inferred)."""
 
 
 @dataclass(frozen=True)
@@ -95,13 +100,16 @@ def human_body(parameters: BodyParameters, handles: tuple[Vector, ...]) -> Human
     """
     height = handles[0][2]
     arms = tuple(arm_of(parameters, side, height) for side in parameters.sides)
-    ahead, aside = BEHIND if parameters.hand == "both" else BESIDE
-    middle = (
-        sum(handle[0] for handle in handles) / len(handles),
-        sum(handle[1] for handle in handles) / len(handles),
-    )
-    sign = -1.0 if parameters.hand == "right" else 1.0
-    place = (middle[0] - ahead, middle[1] - sign * aside, 0.0)
+    if len(arms) == 2:
+        aside = handles[0][1] - arms[0].shoulder[1]
+        ahead = math.sqrt(arms[0].span(RELAXED_ELBOW) ** 2 - aside**2)
+        place = (handles[0][0] - ahead, 0.0, 0.0)
+    else:
+        (arm,) = arms
+        usual = arm_of(BodyParameters(), parameters.hand, USUAL_HEIGHT)
+        _, bend = usual.angles(_at(usual, 1.0))
+        x, y = _at(arm, arm.span(bend) / usual.span(bend))
+        place = (handles[0][0] - x, handles[0][1] - y, 0.0)
     rest = tuple((x - place[0], y - place[1]) for x, y, _ in handles)
     pivots = tuple(
         (
@@ -114,3 +122,9 @@ def human_body(parameters: BodyParameters, handles: tuple[Vector, ...]) -> Human
     body = HumanBody(parameters, arms, pivots, place, rest)
     _ = body.posture  # refuses what is out of reach, before anything is built
     return body
+
+
+def _at(arm: Arm, scale: float) -> tuple[float, float]:
+    """Return where a single hand rests, trunk axes, m."""
+    x, y = arm.shoulder
+    return x + scale * BESIDE[0], y + scale * arm.side * BESIDE[1]

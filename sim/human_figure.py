@@ -190,7 +190,7 @@ def pose(body: BodyParameters, phase: float, speed: float) -> dict[str, float]:
     stride = 2.0 / step_frequency(pace) if pace > 0.05 else 0.0
     travel = STANCE * pace * stride
     lift = LIFT * body.height * min(1.0, pace / 0.4)
-    angles = {}
+    angles: dict[str, float] = {}
     for side, lead in (("left", 0.0), ("right", 0.5)):
         share = (phase / math.tau - 0.25 + lead + 0.5) % 1.0 - 0.5
         if abs(share) <= STANCE / 2.0:

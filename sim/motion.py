@@ -218,8 +218,8 @@ class Path:
         Returns
         -------
         ndarray, shape (..., 3)
-            Distance along the path of the nearest path point (m), lateral offset (m, left
-            positive) and heading against the path's direction there (rad, in [-pi, pi)).
+            Distance along the path of the nearest path point (m), distance from it (m, positive
+            to the left) and heading against the path's direction there (rad, in [-pi, pi)).
         """
         pose = np.asarray(pose_world, dtype=float)
         offset = pose[..., None, :2] - self._start
@@ -230,15 +230,15 @@ class Path:
             return np.stack(
                 (along[..., 0], across[..., 0], wrap_angle(pose[..., 2] - self._angle[0])), axis=-1
             )
-        beyond = along - np.clip(along, self._low, self._high)
-        nearest = np.argmin(beyond**2 + across**2, axis=-1)
+        distance = np.hypot(along - np.clip(along, self._low, self._high), across)
+        nearest = np.argmin(distance, axis=-1)
         pick = nearest[..., None]
         on_leg = np.take_along_axis(along, pick, axis=-1)[..., 0]
         on_leg = np.clip(on_leg, self._low[nearest], self._high[nearest])
         return np.stack(
             (
                 self._station[nearest] + on_leg,
-                np.take_along_axis(across, pick, axis=-1)[..., 0],
+                np.take_along_axis(np.copysign(distance, across), pick, axis=-1)[..., 0],
                 wrap_angle(pose[..., 2] - self._angle[nearest]),
             ),
             axis=-1,
@@ -251,10 +251,10 @@ class Path:
             dx, dy = x - start_x, y - start_y
             along, across = dx * ux + dy * uy, ux * dy - uy * dx
             within = min(max(along, low), high)
-            distance = (along - within) ** 2 + across * across
+            distance = math.hypot(along - within, across)
             if distance < nearest:
                 nearest = distance
-                found = begins + within, across, angle
+                found = begins + within, math.copysign(distance, across), angle
         station, offset, direction = found
         return station, offset, (theta - direction + math.pi) % (2.0 * math.pi) - math.pi
 

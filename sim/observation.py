@@ -25,6 +25,8 @@ class Observation(TypedDict):
         axes, N. The automation gets the sensor's reading, the human feels the force itself.
     pose : ndarray, shape (..., 3)
         Base pose relative to the path: station m, lateral offset m (left positive), heading rad.
+    pose_world : ndarray, shape (..., 3)
+        Base pose in the world: m, m, rad.
     obstacles : ndarray, shape (..., rows, 4)
         Obstacles the seat perceives in base axes, nearest first: ``[present, x, y, radius]``
         with present 1 or 0, and m; rows that are not in use are zero.
@@ -35,6 +37,7 @@ class Observation(TypedDict):
     twist: Array
     force: Array
     pose: Array
+    pose_world: Array
     obstacles: Array
     time: Array
 

@@ -24,6 +24,7 @@ def observe():
             "twist": np.array(twist, dtype=float),
             "force": np.tile(np.array(force, dtype=float), (12, 1)),
             "pose": np.array(pose, dtype=float),
+            "pose_world": np.array(pose, dtype=float),  # the path is the world's x axis
             "obstacles": rows,
             "time": np.array([time]),
         }

@@ -275,12 +275,14 @@ def test_paper_prints_rows_constants_and_the_verdict(cowalk, monkeypatch, passed
 def test_paper_searches_with_the_seed_given(cowalk, monkeypatch):
     def search(seed, progress):
         progress(1, 2)
-        return {"tau, s": float(seed)}, _rows(True)
+        return {"horizon tau, s": float(seed)}, _rows(True)
 
     monkeypatch.setattr(calibration, "calibrate", search)
     code, out, _ = cowalk("paper", "--calibrate", "--seed", 3, "--json")
     assert code == 0
-    assert json.loads(out)["inferred"] == {"tau, s": 3.0}
+    assert json.loads(out)["inferred"] == {"horizon tau, s": 3.0}
+    _, out, _ = cowalk("paper", "--calibrate", "--seed", 3)
+    assert "--set 'automation.negotiation.horizon=3'" in out
 
 
 def test_compare_shows_whatever_scores_there_are(cowalk, scenario_file, monkeypatch):

@@ -42,7 +42,7 @@ class Stills:
         self.video.start(scenario, env)
 
     def step(self, env, trace):
-        own = Trace(1)
+        own = Trace()
         last = dict(zip(UNITS, trace.values[-1], strict=True))
         own.append(tuple((last | self.row).values()))
         self.env, self.frame = env, self.video.picture(env, own)

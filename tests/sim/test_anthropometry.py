@@ -108,3 +108,13 @@ def test_no_such_body(given, named):
 def test_a_handle_out_of_reach_is_named():
     with pytest.raises(InputError, match=r"cannot hold a handle at 0\.20 m"):
         human_body(BodyParameters(), ((0.15, -0.30, 0.2),))
+
+
+@pytest.mark.parametrize("hand", ["left", "right", "both"])
+@given(st.floats(1.4, 2.0))
+def test_people_of_any_size_hold_on_far_from_their_joints_limits(hand, height):
+    handles = ((-0.3, 0.22, 1.0), (-0.3, -0.22, 1.0))
+    body = human_body(BodyParameters(height, hand=hand), handles if hand == "both" else handles[:1])
+    shoulders, elbows = np.abs(body.posture[::2]), np.abs(body.posture[1::2])
+    assert ((elbows > 1.7) & (elbows < 2.2)).all()
+    assert (shoulders < SHOULDER_RANGE[1] - 0.4).all()

@@ -89,11 +89,11 @@ def test_the_free_arm_gives_way_by_force_over_stiffness(stiffness, direction):
     for _ in range(48):
         plant.step((0.0, 0.0), (5.0, 0.0))
     assert not plant.step((0.0, 0.0), (0.0, 0.0)).grip_held
-    (arm,), (rest,) = plant._body.arms, plant._body.rest
+    (arm,), (rest,) = plant._pair.body.arms, plant._pair.body.rest
     force = 1.0 * np.array([math.cos(direction), math.sin(direction)])
 
     def hand():
-        x, y, yaw, shoulder, elbow = plant._human_state[:5]
+        x, y, yaw, shoulder, elbow = plant._pair.human_state[:5]
         along = np.array([math.cos(shoulder), math.sin(shoulder)])
         beyond = np.array([math.cos(shoulder + elbow), math.sin(shoulder + elbow)])
         place = arm.shoulder + arm.upper.length * along + arm.fore.length * beyond
@@ -104,12 +104,12 @@ def test_the_free_arm_gives_way_by_force_over_stiffness(stiffness, direction):
     for _ in range(240 * 6):
         _, where, _ = hand()
         engine.applyExternalForce(
-            plant._human.body,
-            plant._human.links["forearm_left"],
+            plant._pair.human.body,
+            plant._pair.human.links["forearm_left"],
             (*force, 0.0),
             (*where, HANDLE[2]),
             engine.WORLD_FRAME,
-            plant._client,
+            plant._pair.client,
         )
         plant.step((0.0, 0.0), (0.0, 0.0))
     place, _, turn = hand()

@@ -73,9 +73,9 @@ def kinetic_energy(plant):
     """Return the energy of base, load, and of the human as one body with a trunk that turns, J."""
     total = 0.0
     for mass, inertia, state in (
-        (40.0, 1.57, plant._base_state[3:]),
-        (8.0, 1.0, plant._load_state[3:]),
-        (70.0, 1.2, plant._human_state[len(plant._human_state) // 2 :]),
+        (40.0, 1.57, plant._pair.base_state[3:]),
+        (8.0, 1.0, plant._pair.load_state[3:]),
+        (70.0, 1.2, plant._pair.human_state[len(plant._pair.human_state) // 2 :]),
     ):
         if state:
             vx, vy, rate = state[:3]
@@ -113,14 +113,14 @@ def test_momentum_of_a_coasting_base_changes_by_the_measured_wrench(option):
     plant = BulletPlant(Rates(control=240), **option)
     before = plant.reset(WORLD, np.random.default_rng(0))
     dt, impulse, turn = 1.0 / 240.0, np.zeros(2), 0.0
-    handle = np.array(plant._handle[:2])
+    handle = np.array(plant._pair.handle[:2])
     for step in range(96):
         state = plant.step((0.0, 0.0), (6.0 * math.sin(0.05 * step), 4.0))
         force, torque = state.wrench_on_base[0, :2], state.wrench_on_base[0, 5]
         cos, sin = math.cos(state.pose[2]), math.sin(state.pose[2])
         impulse += dt * np.array([cos * force[0] - sin * force[1], sin * force[0] + cos * force[1]])
         turn += dt * (torque + handle[0] * force[1] - handle[1] * force[0])
-    velocity, rate = np.array(plant._base_state[3:5]), plant._base_state[5]
+    velocity, rate = np.array(plant._pair.base_state[3:5]), plant._pair.base_state[5]
     plant.close()
     assert before.twist == (0.0, 0.0)
     assert np.linalg.norm(impulse) > 0.2

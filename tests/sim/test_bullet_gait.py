@@ -35,7 +35,7 @@ class Walk:
         self.place = np.stack(
             (cos * places[:, 0] + sin * places[:, 1], cos * places[:, 1] - sin * places[:, 0]), -1
         )
-        self.arm, self.posture = plant._body.arms[0], plant._body.posture
+        self.arm, self.posture = plant._pair.body.arms[0], plant._pair.body.posture
 
 
 def amplitude(signal, rate, frequencies):

@@ -24,7 +24,7 @@ def walk(steps=100, twist=(0.8, 0.0), push=(0.0, 0.0), **options):
 
 
 @pytest.mark.parametrize("push", [(0.0, 5.0), (4.0, 0.0)])
-@pytest.mark.parametrize("stiffness", [1000.0, 4000.0])
+@pytest.mark.parametrize("stiffness", [4000.0, 8000.0])
 def test_a_compliant_grip_keeps_back_what_the_arm_holds(push, stiffness):
     """The hand gives way by F/K_grip; over that way the arm's own spring takes its share."""
     grip = {"kind": "compliant", "stiffness": (stiffness,) * 3}
