@@ -224,7 +224,7 @@ class BulletPlant:
     @property
     def handle(self) -> tuple[float, float, float]:
         """Where the handle is, base axes, m."""
-        return self._handle
+        return self._pair.look.clamp
 
     def viewer(self) -> Viewer:
         """Return what shows this plant, posed as it is now."""
