@@ -40,6 +40,7 @@ def observations(size: float) -> Iterator[Observation]:
             twist=np.array([v, omega]),
             force=np.tile(force, (12, 1)),
             pose=pose.copy(),
+            pose_world=pose.copy(),  # the path is the x axis
             obstacles=puddle,
             time=np.array([time]),
         )

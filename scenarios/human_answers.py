@@ -76,6 +76,7 @@ def answer(
                 twist=twist.copy(),
                 force=np.tile(felt, (SAMPLES, 1)),
                 pose=pose.copy(),
+                pose_world=pose.copy(),  # the path is the x axis
                 obstacles=np.zeros((OBSTACLE_ROWS, 4)),
                 time=time[step : step + 1].copy(),
             )
