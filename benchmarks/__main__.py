@@ -8,7 +8,15 @@ from functools import partial
 from rich.console import Console
 from rich.table import Table
 
-from . import closed_loop, contact_noise, environments, plant_options, shares
+from . import (
+    closed_loop,
+    contact_noise,
+    environments,
+    humans,
+    imperfections,
+    plant_options,
+    shares,
+)
 
 SUBJECTS = {
     "closed loop": closed_loop.measure,
@@ -17,6 +25,8 @@ SUBJECTS = {
     "plant options": plant_options.measure,
     "contact noise": contact_noise.measure,
     "environments": environments.measure,
+    "human models": humans.measure,
+    "imperfections": imperfections.measure,
 }
 
 

@@ -59,7 +59,9 @@ def main() -> None:
         ffmpeg = [get_ffmpeg_exe(), "-v", "error", "-y", "-ss", "11.2", "-i", film]
         subprocess.run([*ffmpeg, "-frames:v", "1", images / "seeing.png"], check=True)
         output("paper", "--out", folder)
+        output("humans", "show", "escalating", "--out", str(images / "escalating.png"))
         (images / "paper.png").write_bytes(Path(folder, "panels.png").read_bytes())
+    output("humans", "table", "--write", str(DOCS / "humans.md"))
     quote(DOCS / "model.md", "paper", fenced(output("paper")))
     puddle = (ROOT / "scenarios" / "library" / "puddle.scenario.yaml").read_text().rstrip()
     quote(DOCS / "plant.md", "contact-noise", measured("contact noise"))

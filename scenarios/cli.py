@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from . import cli_studies
+from . import cli_humans, cli_studies
 from .cli_output import BAD_INPUT, FAILED, PASSED, complain, emit_json, emit_table, progress_bar
 
 if TYPE_CHECKING:
@@ -45,6 +45,8 @@ class Kind(StrEnum):
 
     SCENARIOS = "scenarios"
     HUMANS = "humans"
+    IMPERFECTIONS = "imperfections"
+    POPULATIONS = "populations"
     AUTOMATIONS = "automations"
     SMOOTHERS = "smoothers"
     PLANTS = "plants"
@@ -171,20 +173,21 @@ def list_parts(
     kind: Annotated[Kind | None, typer.Argument(help="One kind alone.")] = None,
     as_json: Json = False,
 ) -> int:
-    """List scenarios, humans, automations, smoothers, plants."""
-    from cowalk.agents.registry import AUTOMATIONS, HUMANS
+    """List scenarios, humans, imperfections, populations, automations, smoothers, plants."""
+    from cowalk.agents.registry import AUTOMATIONS, HUMANS, IMPERFECTIONS
     from cowalk.estimation.smoothing import SMOOTHERS
     from cowalk.sim.plants import PLANTS
 
     registries: dict[Kind, Registry[Any]] = {
         Kind.HUMANS: HUMANS,
+        Kind.IMPERFECTIONS: IMPERFECTIONS,
         Kind.AUTOMATIONS: AUTOMATIONS,
         Kind.SMOOTHERS: SMOOTHERS,
         Kind.PLANTS: PLANTS,
     }
     found: dict[str, list[dict[str, str]]] = {}
     for each in [kind] if kind else Kind:
-        described = _parts(registries[each]) if each in registries else _scenarios()
+        described = _parts(registries[each]) if each in registries else _files(each)
         found[each.value] = [{"name": n, "description": d} for n, d in described.items()]
     if as_json:
         emit_json(found)
@@ -194,11 +197,13 @@ def list_parts(
     return PASSED
 
 
-def _scenarios() -> dict[str, str]:
+def _files(kind: Kind) -> dict[str, str]:
     from .documents import parse
     from .loading import library
+    from .population import population_library
 
-    data = {name: parse(file.read_text(encoding="utf-8")).data for name, file in library().items()}
+    known = library() if kind is Kind.SCENARIOS else population_library()
+    data = {name: parse(file.read_text(encoding="utf-8")).data for name, file in known.items()}
     return {name: str(item.get("description", "")) for name, item in data.items()}
 
 
@@ -216,12 +221,20 @@ def _parts(registry: Registry[Any]) -> dict[str, str]:
 
 
 @app.command(
-    epilog="\b\nExamples:\n  cowalk check my.scenario.yaml\n  cowalk check *.scenario.yaml"
+    epilog=(
+        "\b\nExamples:\n"
+        "  cowalk check my.scenario.yaml\n"
+        "  cowalk check *.scenario.yaml\n"
+        "  cowalk check mymodels:MyHuman"
+    )
 )
 def check(
-    files: Annotated[list[str], typer.Argument(metavar="FILE...", help="Scenario files.")],
+    files: Annotated[
+        list[str],
+        typer.Argument(metavar="FILE...", help="Scenario files, or agents as module:Class."),
+    ],
 ) -> int:
-    """Report every fault of scenario files with its line."""
+    """Report every fault of scenario files with its line, or of your own agents."""
     from cowalk.sim.errors import InputError
 
     from .loading import faults, find
@@ -229,7 +242,10 @@ def check(
     code = PASSED
     for file in files:
         try:
-            found = [str(fault) for fault in faults(find(file))]
+            if ":" in file and not Path(file).exists():
+                found = cli_humans.agent_faults(file)
+            else:
+                found = [str(fault) for fault in faults(find(file))]
         except InputError as error:
             found = [str(error)]
         print("\n".join(found) if found else f"{file}: no fault")
@@ -237,6 +253,7 @@ def check(
     return code
 
 
+cli_humans.register(app)
 cli_studies.register(app)
 
 

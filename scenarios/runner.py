@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from cowalk.agents.interfaces import Automation, Belief, Human, Situation, Truth
-from cowalk.agents.registry import AUTOMATIONS, HUMANS
+from cowalk.agents.registry import AUTOMATIONS
 from cowalk.estimation.smoothing import SMOOTHERS
 from cowalk.sim.env import CowalkEnv
 from cowalk.sim.errors import InputError, SimulationError
@@ -21,6 +21,7 @@ from cowalk.sim.errors import InputError, SimulationError
 from .answers import AgentError, of_kind, pair
 from .building import build
 from .expectations import judge
+from .humans import build_human
 from .loading import load
 from .metrics import metrics
 from .results import RunResult, Trace, json_ready
@@ -70,7 +71,7 @@ def build_agents(scenario: Scenario) -> tuple[Human, Automation]:
     InputError
         If a name or a parameter is not right.
     """
-    human = build(HUMANS, scenario.human, "human", intention=scenario.human.intention)
+    human = build_human(scenario.human, scenario.plant.name, scenario.rates.period)
     smoother = build(SMOOTHERS, scenario.automation.smoother, "automation.smoother")
     automation = build(
         AUTOMATIONS,

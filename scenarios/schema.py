@@ -30,9 +30,14 @@ class Component(BaseModel):
 
 
 class HumanComponent(Component):
-    """The human seat. What they want (``intention``) stays when the model is swapped."""
+    """The human seat. ``intention`` and ``imperfections`` stay when the model is swapped.
+
+    The first imperfection is the innermost: it acts on what the model asks for, the next one
+    on what the first leaves of it.
+    """
 
     intention: IntentionSettings = Field(default_factory=IntentionSettings)
+    imperfections: tuple[Component, ...] = ()
 
 
 class AutomationComponent(Component):

@@ -141,9 +141,9 @@ class BulletPlant:
         """See `Plant.step`."""
         push = (float(hand_force[0]), float(hand_force[1]))
         speed, rate = float(twist_command[0]), float(twist_command[1])
-        for name, pair in (("twist_command", (speed, rate)), ("hand_force", push)):
-            if not (math.isfinite(pair[0]) and math.isfinite(pair[1])):
-                raise SimulationError(f"{name} = {pair} is not finite")
+        for name, given in (("twist_command", (speed, rate)), ("hand_force", push)):
+            if not (math.isfinite(given[0]) and math.isfinite(given[1])):
+                raise SimulationError(f"{name} = {given} is not finite")
         if self._stopped:
             speed = rate = 0.0
         pair = self._pair

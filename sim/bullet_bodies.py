@@ -16,6 +16,9 @@ State = tuple[float, ...]
 BARE = engine.URDF_IGNORE_VISUAL_SHAPES | engine.URDF_USE_INERTIA_FROM_FILE
 """Without the second flag the engine makes up inertias from the (absent) collision shapes."""
 
+_SET_JOINTS, _GET_JOINTS = engine.setJointMotorControlArray, engine.getJointStates
+_TORQUE = engine.TORQUE_CONTROL
+
 
 class Chain:
     """A body on planar joints: nothing but the forces given to it act on its joints.
@@ -58,10 +61,10 @@ class Chain:
         """Apply joint forces in the next physics step, N and N m."""
         zeros = self.zeros
         # By position: keywords make this call 1 us slower.
-        engine.setJointMotorControlArray(
+        _SET_JOINTS(
             self.body,
             self.joints,
-            engine.TORQUE_CONTROL,
+            _TORQUE,
             zeros,
             zeros,
             forces,
@@ -72,7 +75,7 @@ class Chain:
 
     def read(self) -> State:
         """Return joint positions, then rates."""
-        states = engine.getJointStates(self.body, self.joints, self.client)
+        states = _GET_JOINTS(self.body, self.joints, self.client)
         return (*[s[0] for s in states], *[s[1] for s in states])
 
 
@@ -166,13 +169,23 @@ class SlipBase(Slab):
         _, _, _, vx, vy, rate = state
         along, across, turn = self._wrench(cos * vx + sin * vy, cos * vy - sin * vx, rate)
         fx, fy, torque = extra
-        self.apply(
-            (cos * along - sin * across + fx, sin * along + cos * across + fy, turn + torque)
+        zeros = self.zeros
+        # As `apply`, written out: this is the innermost loop.
+        _SET_JOINTS(
+            self.body,
+            self.joints,
+            _TORQUE,
+            zeros,
+            zeros,
+            (cos * along - sin * across + fx, sin * along + cos * across + fy, turn + torque),
+            zeros,
+            zeros,
+            self.client,
         )
 
     def read(self) -> State:
         """See `Base.read`."""
-        (x, vx, _, _), (y, vy, _, _), (yaw, rate, _, _) = engine.getJointStates(
+        (x, vx, _, _), (y, vy, _, _), (yaw, rate, _, _) = _GET_JOINTS(
             self.body, self.joints, self.client
         )
         return x, y, yaw, vx, vy, rate

@@ -14,6 +14,7 @@ from .urdf import Vector
 Wrench = tuple[float, float, float, float, float, float]
 NOTHING: Wrench = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 UNBREAKABLE = 1e9
+_REACTION = engine.getConstraintState
 
 
 class Hands:
@@ -47,9 +48,8 @@ class Hands:
         reference: Vector,
     ) -> None:
         self._client = client
-        self._release = math.inf
-        if parameters.release_force is not None:
-            self._release = parameters.release_force**2
+        self._breaks = parameters.release_force is not None
+        self._release = (parameters.release_force or math.inf) ** 2
         self.yields = parameters.kind == "compliant"
         """Whether its forces have to be renewed in every physics step."""
         self._turn = (parameters.turn_stiffness[2], parameters.turn_damping[2])
@@ -207,14 +207,12 @@ class Hands:
             Of the yaw of what is held.
         """
         if self.simple:
-            fx, fy, fz = force_on_parent(
-                engine.JOINT_POINT2POINT,
-                engine.getConstraintState(self._constraints[0], self._client),
-            )
-            wrench = (cos * fx + sin * fy, cos * fy - sin * fx, fz, 0.0, 0.0, self._torque)
+            # The reaction is that on the hand (see `force_on_parent`).
+            fx, fy, fz = _REACTION(self._constraints[0], self._client)
+            wrench = (-cos * fx - sin * fy, sin * fx - cos * fy, -fz, 0.0, 0.0, self._torque)
         else:
             wrench = self._sum(cos, sin)
-        if wrench[0] * wrench[0] + wrench[1] * wrench[1] > self._release:
+        if self._breaks and wrench[0] * wrench[0] + wrench[1] * wrench[1] > self._release:
             self._hold(False)
             self._torque = 0.0
         return wrench

@@ -115,6 +115,8 @@ class Command:
         if self._late:
             self._under_way.append(self._goal)
             speed, rate = self._under_way.popleft()
+        if speed == self._speed and rate == self._rate:
+            return speed, rate
         gap = speed - self._speed
         slope = self._speed_slope
         self._speed += slope if gap > slope else -slope if gap < -slope else gap

@@ -246,7 +246,8 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         """Go on from a saved state of this environment, bit for bit; return what is seen there."""
         plant, own = saved
         self._plant.restore(plant)
-        vars(self).update(copy.deepcopy(own))
+        for name, value in copy.deepcopy(own).items():
+            setattr(self, name, value)
         return self._observations()
 
     @property

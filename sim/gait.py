@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
@@ -94,18 +93,8 @@ def step_frequency(speed: float, preferred: float = STEP_FREQUENCY[1]) -> float:
     return preferred * share
 
 
-class Sway(NamedTuple):
-    """Where the trunk is beside its mean, m, m/s and m/s^2, forward and left."""
-
-    x: float
-    y: float
-    vx: float
-    vy: float
-    ax: float
-    ay: float
-
-
-STILL = Sway(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+Sway = tuple[float, float, float, float, float, float]
+"""Where the trunk is beside its mean: x, y in m, their rates in m/s, accelerations in m/s^2."""
 
 
 class Gait:
@@ -150,9 +139,7 @@ class Gait:
         x, y = fore * 2.0 * sin * cos, side * sin
         vx, vy = twice * fore * (1.0 - 2.0 * sin * sin), rate * side * cos
         ahead = 0.5 * self._step
-        return Sway(
-            x, y, vx, vy, -twice * twice * (x + ahead * vx), -rate * rate * (y + ahead * vy)
-        )
+        return x, y, vx, vy, -twice * twice * (x + ahead * vx), -rate * rate * (y + ahead * vy)
 
     @property
     def phase(self) -> float:

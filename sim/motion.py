@@ -7,6 +7,7 @@ a circular arc. A *pose* is ``[x, y, theta]`` in m, m, rad, world axes, counter-
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -177,6 +178,7 @@ class Path:
     _low: Array = field(init=False, repr=False, compare=False)
     _high: Array = field(init=False, repr=False, compare=False)
     _legs: tuple[tuple[float, ...], ...] = field(init=False, repr=False, compare=False)
+    _turns: list[float] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         points = np.asarray(self.points, dtype=float)
@@ -202,6 +204,7 @@ class Path:
         columns = (low, high, *points[:-1].T, *self._direction.T, self._station[:-1], self._angle)
         legs_in_floats = tuple(zip(*(column.tolist() for column in columns), strict=True))
         object.__setattr__(self, "_legs", legs_in_floats)
+        object.__setattr__(self, "_turns", self._station[1:-1].tolist())
 
     @property
     def length(self) -> float:
@@ -257,6 +260,17 @@ class Path:
                 found = begins + within, math.copysign(distance, across), angle
         station, offset, direction = found
         return station, offset, (theta - direction + math.pi) % (2.0 * math.pi) - math.pi
+
+    def absolute(self, station: float, offset: float, heading: float) -> tuple[float, float, float]:
+        """Return `absolute_pose` of one pose in plain floats, as `relative` is for its inverse."""
+        leg = bisect_right(self._turns, station)
+        _, _, start_x, start_y, ux, uy, begins, angle = self._legs[leg]
+        along = station - begins
+        return (
+            start_x + along * ux - offset * uy,
+            start_y + along * uy + offset * ux,
+            angle + heading,
+        )
 
     def point_at(self, station: ArrayLike) -> Array:
         """Return the path point at a distance along the path.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import sys
 from collections.abc import Callable, Iterator, Mapping
+from functools import cache
 from importlib import import_module
 from importlib.metadata import entry_points
 from pathlib import Path
@@ -20,6 +21,12 @@ def did_you_mean(name: str, known: list[str]) -> str:
     near = difflib.get_close_matches(name, known, n=1)
     hint = f"did you mean {near[0]!r}? " if near else ""
     return f"{hint}Known: {', '.join(known)}"
+
+
+@cache
+def _installed(group: str) -> dict[str, str]:
+    # Reading the metadata of all installed packages takes milliseconds.
+    return {point.name: point.value for point in entry_points(group=group)}
 
 
 class Registry(Generic[T]):
@@ -50,8 +57,7 @@ class Registry(Generic[T]):
         self._methods = methods
 
     def _addresses(self) -> dict[str, str]:
-        added = entry_points(group=self._group) if self._group else ()
-        return self._built_in | {point.name: point.value for point in added}
+        return self._built_in | (_installed(self._group) if self._group else {})
 
     def names(self) -> list[str]:
         """Return all registered names, sorted."""

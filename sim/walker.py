@@ -159,12 +159,12 @@ class Walker:
         lean = human[2] - base_yaw
         legs_x = legs_y = 0.0
         if self.gait.enabled:
-            sway = self.gait.update(own_vx)
-            target_x += sway.x
-            target_y += sway.y
-            slip_x -= sway.vx
-            slip_y -= sway.vy
-            legs_x, legs_y = self._mass * sway.ax, self._mass * sway.ay
+            sway_x, sway_y, sway_vx, sway_vy, ax, ay = self.gait.update(own_vx)
+            target_x += sway_x
+            target_y += sway_y
+            slip_x -= sway_vx
+            slip_y -= sway_vy
+            legs_x, legs_y = self._mass * ax, self._mass * ay
         legs = self._legs
         legs.append(
             (

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from cowalk.agents import HUMANS
 from cowalk.agents.interfaces import Situation
 from cowalk.sim.motion import Path, TwistBounds
 
@@ -30,3 +31,14 @@ def observe():
         }
 
     return make
+
+
+@pytest.fixture
+def new_human(stand_in_recording):
+    """Build a registered human by name; what has no default gets a stand-in."""
+    needed = {"recorded": {"file": str(stand_in_recording)}}
+
+    def build(name, **parameters):
+        return HUMANS.get(name)(**needed.get(name, {}), **parameters)
+
+    return build

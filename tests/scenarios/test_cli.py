@@ -9,21 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from cowalk.scenarios import calibration, cli, compare, paper
+from cowalk.scenarios import calibration, compare, paper
 from cowalk.scenarios.results import Trace
-
-
-@pytest.fixture
-def cowalk(monkeypatch, capfd):
-    """Run the command; return exit code, standard output and standard error."""
-
-    def call(*arguments):
-        monkeypatch.setattr(sys, "argv", ["cowalk", *map(str, arguments)])
-        with pytest.raises(SystemExit) as end:
-            cli.main()
-        return end.value.code, *capfd.readouterr()
-
-    return call
 
 
 @pytest.fixture
@@ -72,7 +59,18 @@ def test_help_imports_nothing_heavy():
 
 
 @pytest.mark.parametrize(
-    "command", ["run", "list", "check", "paper", "compare", "compare smoothers"]
+    "command",
+    [
+        "run",
+        "list",
+        "check",
+        "paper",
+        "compare",
+        "compare smoothers",
+        "humans sample",
+        "humans show",
+        "humans table",
+    ],
 )
 def test_every_command_explains_itself(cowalk, command):
     code, out, _ = cowalk(*command.split(), "--help")
