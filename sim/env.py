@@ -203,8 +203,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self._measured = self._sensor.measure(state.force_on_base)
         clearance, solid_clearance = self._clearance(state.pose, state.human_pose)
         observations = self._observations()
-        station = self._relative[0]
-        goal = station >= self.world.path.length
+        goal = self._relative[0] >= self.world.path.length
         collision = solid_clearance < 0.0
         ends = zip(_ENDS, (goal, collision, not state.grip_held), strict=True)
         self._info = {"clearance": clearance} | dict(ends)
