@@ -8,6 +8,8 @@ import sys
 import tempfile
 from pathlib import Path
 
+from imageio_ffmpeg import get_ffmpeg_exe
+
 DOCS = Path(__file__).parent
 ROOT = DOCS.parent
 COMMAND = Path(sys.executable).parent / "cowalk"
@@ -52,6 +54,10 @@ def main() -> None:
         printed = printed.replace(folder, "runs")
         quote(ROOT / "README.md", "run", fenced(printed))
         (images / "puddle.png").write_bytes(Path(folder, "puddle", "figure.png").read_bytes())
+        film = f"{folder}/puddle.mp4"
+        output("run", "puddle", "--out", f"{folder}/filmed", "--video", film)
+        ffmpeg = [get_ffmpeg_exe(), "-v", "error", "-y", "-ss", "11.2", "-i", film]
+        subprocess.run([*ffmpeg, "-frames:v", "1", images / "seeing.png"], check=True)
         output("paper", "--out", folder)
         output("humans", "show", "escalating", "--out", str(images / "escalating.png"))
         (images / "paper.png").write_bytes(Path(folder, "panels.png").read_bytes())

@@ -221,6 +221,15 @@ class BulletPlant:
         """Step the engine alone, nothing driven or read: what a benchmark compares with."""
         engine.stepSimulation(self._pair.client)
 
+    @property
+    def handle(self) -> tuple[float, float, float]:
+        """Where the handle is, base axes, m."""
+        return self._pair.look.clamp
+
+    def viewer(self) -> Viewer:
+        """Return what shows this plant, posed as it is now."""
+        return self._view()
+
     def _view(self) -> Viewer:
         assert self._world is not None, "reset before render"
         if self._viewer is None or self._viewer.world != self._world:

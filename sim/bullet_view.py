@@ -6,6 +6,7 @@ watched; a run is the same whether or not anybody looks.
 
 from __future__ import annotations
 
+import itertools
 import math
 import time
 from dataclasses import dataclass
@@ -15,23 +16,26 @@ from numpy.typing import NDArray
 
 from .bullet_coupling import CouplingParameters
 from .bullet_engine import connect, disconnect, engine, load
+from .bullet_floor import lay_floor
+from .bullet_scene import look_at, photograph
+from .camera import Camera
 from .gait import step_frequency
 from .human_body import HumanBody
 from .human_figure import figure_urdf, pose
 from .urdf import Vector
+from .urdf_colours import one_colour_a_link
 from .world import World
 
-WALL_HEIGHT, WALL_THICKNESS = 0.25, 0.10
+WALL_HEIGHT, WALL_THICKNESS, WALL_PIECE = 0.25, 0.10, 2.0
 SOLID_HEIGHT = 0.8
-TILE = 1.0
-"""Side of the floor's tiles, m: without them one cannot see that the pair moves."""
 MARGIN = 6.0
 """How far floor and walls reach beyond path and start, m."""
-FLOOR, FLOOR_DARK = (0.80, 0.78, 0.74, 1.0), (0.74, 0.72, 0.68, 1.0)
 CLOTH = (0.85, 0.80, 0.62, 1.0)
 WALL, PUDDLE, SOLID = (0.55, 0.57, 0.60, 1.0), (0.20, 0.50, 0.90, 1.0), (0.55, 0.42, 0.28, 1.0)
-CAMERA_DISTANCE, CAMERA_PITCH, CAMERA_SIDE = 3.3, -24.0, 32.0
-"""Chase camera: m, degrees, and degrees to the left of straight behind the base."""
+CAMERA_DISTANCE, CAMERA_PITCH, CAMERA_SIDE, CAMERA_FIELD = 3.3, -24.0, 32.0, 50.0
+"""Chase camera: m, degrees, degrees to the left of straight behind the base, degrees."""
+TOP_DISTANCE, TOP_FIELD, TOP_AHEAD = 24.0, 10.0, 0.8
+"""Top camera, far away so that it hardly distorts: m, degrees, m ahead of the pair."""
 
 
 @dataclass(frozen=True)
@@ -84,8 +88,8 @@ class Viewer:
                 engine.COV_ENABLE_RENDERING, 0, physicsClientId=self._client
             )
         self._look = look
-        self._robot = load(self._client, look.robot)
-        self._human = load(self._client, figure_urdf(look.human))
+        self._robot = load(self._client, one_colour_a_link(look.robot))
+        self._human = load(self._client, one_colour_a_link(figure_urdf(look.human)))
         self._joints = {
             engine.getJointInfo(self._human, joint, self._client)[1].decode(): joint
             for joint in range(engine.getNumJoints(self._human, self._client))
@@ -122,24 +126,17 @@ class Viewer:
         if world.corridor:
             half = world.corridor.width / 2.0
             bottom, top = -half, half
-            for side in (-1.0, 1.0):
+            # In pieces: what a triangle costs to render is the rectangle around it.
+            pieces = math.ceil((right - left) / WALL_PIECE)
+            length = (right - left) / pieces
+            for piece, side in itertools.product(range(pieces), (-1.0, 1.0)):
+                y = side * (half + WALL_THICKNESS / 2.0)
                 self._box(
-                    ((left + right) / 2.0, side * (half + WALL_THICKNESS / 2.0), WALL_HEIGHT / 2.0),
-                    (right - left, WALL_THICKNESS, WALL_HEIGHT),
+                    (left + (piece + 0.5) * length, y, WALL_HEIGHT / 2.0),
+                    (length, WALL_THICKNESS, WALL_HEIGHT),
                     WALL,
                 )
-        for row in range(math.ceil((top - bottom) / TILE)):
-            for column in range(math.ceil((right - left) / TILE)):
-                depth = min(TILE, top - bottom - row * TILE)
-                self._box(
-                    (
-                        left + (column + 0.5) * TILE,
-                        bottom + row * TILE + depth / 2.0,
-                        -0.01,
-                    ),
-                    (TILE, depth, 0.02),
-                    FLOOR_DARK if (row + column) % 2 else FLOOR,
-                )
+        lay_floor(self._client, (left, right), (bottom, top))
         for thing in world.obstacles:
             height = SOLID_HEIGHT if thing.solid else 0.004
             self._show(
@@ -219,7 +216,10 @@ class Viewer:
 
     def _put(self, body: int, place: tuple[float, ...]) -> None:
         turn = engine.getQuaternionFromEuler((0.0, 0.0, place[2]))
-        engine.resetBasePositionAndOrientation(body, (*place[:2], 0.0), turn, self._client)
+        # The engine places the root link's centre of mass, not its frame.
+        inertial = engine.getDynamicsInfo(body, -1, self._client)[3:5]
+        centre = engine.multiplyTransforms((*place[:2], 0.0), turn, *inertial)
+        engine.resetBasePositionAndOrientation(body, *centre, self._client)
 
     def _stepped(self, place: tuple[float, ...], speed: float) -> float:
         """Return the phase of the stride after walking here from where one was last seen."""
@@ -234,23 +234,31 @@ class Viewer:
         time.sleep(max(0.0, self._shown + period - time.perf_counter()))
         self._shown = time.perf_counter()
 
+    @property
+    def client(self) -> int:
+        """The engine world that is looked at."""
+        return self._client
+
+    def camera(self, kind: str, width: int, height: int) -> Camera:
+        """Return a camera that follows the pair.
+
+        Parameters
+        ----------
+        kind : {"chase", "top"}
+            From behind, or straight from above with world x to the right.
+        width, height : int
+            Size of the picture in pixels.
+        """
+        size = (width, height)
+        if kind == "top":
+            x, y, _ = self._target
+            ahead = (x + TOP_AHEAD, 0.0 if self.world.corridor else y, 0.0)
+            return look_at(ahead, TOP_DISTANCE, 0.0, -89.99, TOP_FIELD, size)
+        return look_at(self._target, CAMERA_DISTANCE, self._yaw, CAMERA_PITCH, CAMERA_FIELD, size)
+
     def picture(self, width: int, height: int) -> NDArray[np.uint8]:
         """Return what the chase camera sees, uint8, shape (height, width, 3)."""
-        view = engine.computeViewMatrixFromYawPitchRoll(
-            self._target, CAMERA_DISTANCE, self._yaw, CAMERA_PITCH, 0.0, 2
-        )
-        projection = engine.computeProjectionMatrixFOV(50.0, width / height, 0.1, 30.0)
-        pixels = engine.getCameraImage(
-            width,
-            height,
-            view,
-            projection,
-            lightDirection=(-2.0, 3.0, 6.0),
-            shadow=0,
-            renderer=engine.ER_TINY_RENDERER,
-            physicsClientId=self._client,
-        )[2]
-        return np.reshape(np.array(pixels, dtype=np.uint8), (height, width, 4))[..., :3].copy()
+        return photograph(self._client, self.camera("chase", width, height))[0]
 
     def close(self) -> None:
         """Free the world. May be called twice."""

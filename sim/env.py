@@ -144,6 +144,11 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         return self.action_spaces[agent]
 
     @property
+    def plant(self) -> Plant:
+        """The plant: truth, for those who watch, not for the seats."""
+        return self._plant
+
+    @property
     def plant_state(self) -> PlantState:
         """State of the plant after the last step or reset: truth, not for the seats."""
         return self._state
