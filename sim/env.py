@@ -22,6 +22,7 @@ from .world import SEATS, Clearance, Corridor, World
 STRAIGHT_CORRIDOR = World(path=Path(((0.0, 0.0), (20.0, 0.0))), corridor=Corridor(width=3.0))
 """The world of `parallel_env` without arguments: nothing in it, nothing to negotiate."""
 
+_ENDS = ("goal", "collision", "grip_lost")
 _SAVED = ("agents", "_step_count", "_sensor", "_generator", "_state", "_measured", "_info")
 """What of an environment changes within an episode, beside its plant."""
 
@@ -173,12 +174,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self._state = self._plant.reset(self.world, plant_rng)
         self._measured = self._sensor.measure(self._state.force_on_base)
         clearance, _ = self._clearance(self._state.pose, self._state.human_pose)
-        self._info = {
-            "clearance": clearance,
-            "goal": False,
-            "collision": False,
-            "grip_lost": False,
-        }
+        self._info = {"clearance": clearance} | dict.fromkeys(_ENDS, False)
         return self._observations(), {seat: dict(self._info) for seat in SEATS}
 
     def step(
@@ -212,15 +208,10 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self._measured = self._sensor.measure(state.force_on_base)
         clearance, solid_clearance = self._clearance(state.pose, state.human_pose)
         observations = self._observations()
-        station = self._relative[0]
-        goal = station >= self.world.path.length
+        goal = self._relative[0] >= self.world.path.length
         collision = solid_clearance < 0.0
-        self._info = {
-            "clearance": clearance,
-            "goal": goal,
-            "collision": collision,
-            "grip_lost": not state.grip_held,
-        }
+        ends = zip(_ENDS, (goal, collision, not state.grip_held), strict=True)
+        self._info = {"clearance": clearance} | dict(ends)
         rewards = self._reward(state, self._relative, clearance, collision, goal)
         over = goal or collision or state.over
         late = not over and self._step_count >= self.steps_per_episode
@@ -246,8 +237,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         """Go on from a saved state of this environment, bit for bit; return what is seen there."""
         plant, own = saved
         self._plant.restore(plant)
-        for name, value in copy.deepcopy(own).items():
-            setattr(self, name, value)
+        self.__dict__.update(copy.deepcopy(own))
         return self._observations()
 
     @property
