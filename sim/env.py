@@ -15,7 +15,7 @@ from .observation import OBSTACLE_ROWS, Eyes, Observation
 from .plant import BASE_RADIUS, HUMAN_RADIUS, Plant, PlantState, Rates
 from .plants import PLANTS
 from .reward import Reward
-from .sensor import ForceSensor, SensorParameters
+from .sensor import ForceSensor, Reading, SensorParameters
 from .world import SEATS, Clearance, Corridor, World
 
 STRAIGHT_CORRIDOR = World(path=Path(((0.0, 0.0), (20.0, 0.0))), corridor=Corridor(width=3.0))
@@ -32,8 +32,8 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
     The human's action is the intended hand force on the base ``[fx, fy]``, base axes, N; the
     automation's is the twist to execute ``[v, omega]``, m/s and rad/s. Actions beyond the
     action space are clipped to it. Both seats perceive the same dict of named boxes: ``twist``
-    (2,), ``force`` (samples, 2), ``pose`` (3,), ``obstacles`` (8, 4) and ``time`` (1,), with
-    the meaning given in `cowalk.sim.observation.Observation`. Spaces do not depend on who
+    (2,), ``force`` (samples, 2), ``force_valid`` (samples,), ``pose`` (3,), ``obstacles`` (8, 6)
+    and ``time`` (1,), with the meaning given in `cowalk.sim.observation.Observation`. Spaces do not depend on who
     sits in the seats.
 
     Rewards are those of `cowalk.sim.reward.Reward`. An episode terminates when the base
@@ -107,6 +107,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
             {
                 "twist": _box(2),
                 "force": _box(rates.samples, 2),
+                "force_valid": _box(rates.samples),
                 "pose": _box(3),
                 "obstacles": _box(OBSTACLE_ROWS, 4),
                 "time": _box(1),
@@ -120,7 +121,8 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self._clearance = Clearance(world, (BASE_RADIUS, HUMAN_RADIUS))
         self._reward = Reward(pace, rates.period)
         self._eyes = {seat: Eyes(world, seat) for seat in SEATS}
-        self._sensor = ForceSensor(sensor, np.random.default_rng())
+        self._sensor = ForceSensor(sensor, rates.sensor)
+        self._felt = np.ones(rates.samples)
         self._generator = np.random.default_rng()
         self._step_count = 0
 
@@ -156,7 +158,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self._step_count = 0
         self._sensor.reset(sensor_rng)
         self._state = self._plant.reset(self.world, plant_rng)
-        self._measured = self._sensor.measure(self._state.force_on_base)
+        self._reading = self._sensor.measure(self._state.force_on_base)
         clearance, _ = self._clearance(self._state.pose, self._state.human_pose)
         self._info = {"clearance": clearance, "goal": False, "collision": False}
         return self._observations(), {seat: dict(self._info) for seat in SEATS}
@@ -186,7 +188,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         twist = self._bounded("automation", actions["automation"])
         state = self._state = self._plant.step(twist, force)
         self._step_count += 1
-        self._measured = self._sensor.measure(state.force_on_base)
+        self._reading = self._sensor.measure(state.force_on_base)
         clearance, solid_clearance = self._clearance(state.pose, state.human_pose)
         observations = self._observations()
         station = float(self._relative[0])
@@ -211,7 +213,12 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
     @property
     def measured_force(self) -> Array:
         """What the sensor read in the last control step, N, base axes, shape (samples, 2)."""
-        return self._measured
+        return self._reading.force
+
+    @property
+    def sensor_reading(self) -> Reading:
+        """The same with its flags: samples lost on the way, samples at the end of the range."""
+        return self._reading
 
     def render(self) -> np.ndarray | None:
         """Return a picture, uint8, shape (480, 640, 3), or show it in mode ``"human"``."""
@@ -247,11 +254,13 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         state = self._state
         self._relative = self.world.path.relative_pose(state.pose)
         twist, time = np.array(state.twist), np.array([self._step_count / self.rates.control])
-        force = {"human": state.force_on_base, "automation": self._measured}
+        force = {"human": state.force_on_base, "automation": self._reading.force}
+        valid = {"human": self._felt, "automation": self._reading.valid}
         return {
             seat: Observation(
                 twist=twist.copy(),
                 force=force[seat].copy(),
+                force_valid=valid[seat].astype(float),
                 pose=self._relative.copy(),
                 obstacles=self._eyes[seat].look(state.pose),
                 time=time.copy(),

@@ -23,6 +23,8 @@ class Observation(TypedDict):
     force : ndarray, shape (..., samples, 2)
         Force of the human on the base at every sensor sample of the last control step, base
         axes, N. The automation gets the sensor's reading, the human feels the force itself.
+    force_valid : ndarray, shape (..., samples)
+        1 where the sample arrived, 0 where it was lost and ``force`` repeats the one before.
     pose : ndarray, shape (..., 3)
         Base pose relative to the path: station m, lateral offset m (left positive), heading rad.
     obstacles : ndarray, shape (..., rows, 4)
@@ -34,6 +36,7 @@ class Observation(TypedDict):
 
     twist: Array
     force: Array
+    force_valid: Array
     pose: Array
     obstacles: Array
     time: Array

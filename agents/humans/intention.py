@@ -70,7 +70,7 @@ class Intention:
     def _lateral_aim(self, offset: Array, heading: Array, obstacles: Array) -> Array:
         """Return the lateral offset from the path that clears the nearest obstacle, m."""
         settings = self._settings
-        present, x, y, radius = np.moveaxis(obstacles, -1, 0)
+        present, x, y, radius = np.moveaxis(obstacles[..., :4], -1, 0)
         cos, sin = np.cos(heading)[..., None], np.sin(heading)[..., None]
         along = cos * x - sin * y
         across = offset[..., None] + sin * x + cos * y

@@ -13,7 +13,7 @@ from cowalk.sim.plants import PLANTS
 from cowalk.sim.sensor import SensorParameters
 from cowalk.sim.world import Corridor, Obstacle, World
 
-NOISY = SensorParameters(noise=(0.2, 0.2))
+NOISY = SensorParameters(noise_density=0.02, drop_rate=0.02, low_pass=60.0, latency=0.01)
 
 
 def episode(env, seed, steps=None):
@@ -77,6 +77,7 @@ def test_the_automation_reads_the_sensor_and_the_human_feels_the_force():
     env.reset(seed=0)
     observations, *_ = env.step({"human": np.array([1.0, 2.0]), "automation": np.zeros(2)})
     np.testing.assert_array_equal(observations["human"]["force"], [[1.0, 2.0]] * 12)
+    assert observations["human"]["force_valid"].all()
     assert observations["automation"]["force"].std(axis=0).min() > 0.05
 
 
