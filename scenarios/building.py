@@ -20,6 +20,7 @@ from .wording import validate
 T = TypeVar("T")
 
 _CONFIG = ConfigDict(extra="forbid", arbitrary_types_allowed=True)
+_PLAIN = (bool, int, float, str, tuple)
 _KEYWORDS = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
 
 
@@ -76,6 +77,27 @@ def check_parameters(
         Names of the arguments that come from elsewhere in the scenario.
     """
     return _prepare(registry, component, section, shared)[2]
+
+
+def complete(
+    registry: Registry[Any], component: Component, shared: Collection[str] = ()
+) -> dict[str, Any]:
+    """Return a component's parameters with the defaults of its constructor written out.
+
+    Defaults that a scenario file cannot hold (objects, "none given") are left out.
+
+    Parameters
+    ----------
+    registry, component, shared
+        See `check_parameters`.
+    """
+    constructor = registry.get(component.name)
+    defaults = {
+        name: parameter.default
+        for name, parameter in _accepted(constructor).items()
+        if name not in shared and isinstance(parameter.default, _PLAIN)
+    }
+    return defaults | component.parameters
 
 
 def _prepare(

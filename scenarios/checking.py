@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
@@ -12,12 +12,14 @@ from cowalk.sim.errors import InputError
 from cowalk.sim.plants import PLANTS
 from cowalk.sim.registry import Registry
 
-from .building import attempt, check_parameters
+from .building import attempt, check_parameters, complete
 from .documents import Document, Problem
 from .overrides import component_sections
 from .results import UNITS
 from .schema import Component, Scenario
 from .wording import validate
+
+C = TypeVar("C", bound=Component)
 
 REGISTRIES: dict[str, Registry[Any]] = {
     "plant": PLANTS,
@@ -28,7 +30,7 @@ REGISTRIES: dict[str, Registry[Any]] = {
 """Where the components of each section are looked up."""
 
 SHARED = {
-    "plant": ("rates",),
+    "plant": ("rates", "gui"),
     "human": ("intention",),
     "automation": ("negotiation", "smoother"),
     "automation.smoother": (),
@@ -54,6 +56,27 @@ def check(document: Document) -> tuple[Scenario | None, list[Problem]]:
         except InputError as error:
             problems.append(Problem(("automation", "negotiation", "period"), str(error)))
     return scenario, problems
+
+
+def resolve(scenario: Scenario) -> Scenario:
+    """Return the scenario with the default parameters of its parts written out.
+
+    A file of it gives the same run even after a default has changed.
+    """
+
+    def full(component: C, section: str) -> C:
+        parameters = complete(REGISTRIES[section], component, SHARED[section])
+        return component.model_copy(update={"parameters": parameters})
+
+    smoother = full(scenario.automation.smoother, "automation.smoother")
+    automation = full(scenario.automation, "automation").model_copy(update={"smoother": smoother})
+    return scenario.model_copy(
+        update={
+            "plant": full(scenario.plant, "plant"),
+            "human": full(scenario.human, "human"),
+            "automation": automation,
+        }
+    )
 
 
 def _components(data: dict[str, Any], scenario: Scenario | None) -> list[Problem]:

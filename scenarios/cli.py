@@ -93,7 +93,7 @@ def run(
     result.write(folder)
     if as_json:
         emit_json(result.summary | {"folder": str(folder), "passed": result.passed})
-    else:
+    elif result.error is None:
         _report(result, folder)
     if result.error is not None:
         kept = f"the trace so far, {len(result.trace)} rows, is in {folder / 'trace.parquet'}"
@@ -240,7 +240,8 @@ def _one_line(error: Exception) -> str | None:
     """Return what a user did wrong, or None if the error is ours."""
     # Typer brings its own copy of click or uses the installed one: no class to name for both.
     if hasattr(error, "format_message"):
-        return f"{error.format_message()} (see cowalk --help)"
+        said = error.format_message().replace("Value error, ", "").rstrip(".")
+        return f"{said} (see cowalk --help)"
     from cowalk.sim.errors import InputError, SimulationError
 
     return str(error) if isinstance(error, InputError | SimulationError) else None

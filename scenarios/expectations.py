@@ -120,18 +120,16 @@ def _judge(name: str, text: str, columns: Mapping[str, Array], period: float) ->
     if (start := _start(formula.root, period)) >= rows:
         reason = f"it looks from {start * period:g} s on, but the run ended at {rows * period:g} s"
         return Verdict(name, text, np.nan, False, reason=reason)
-    margin = margins(formula.root, columns, period)[0]
-    at_best = margin
-    if np.isinf(margin) and margin < 0.0:
-        at_best = margins(formula.root, columns, period, optimistic=True)[0]
-    undecided = margin < 0.0 < at_best
+    margin = float(margins(formula.root, columns, period)[0])
     if margin > 0.0:
-        return Verdict(name, text, 0.0 if margin == BARELY else float(margin), True)
+        return Verdict(name, text, 0.0 if margin == BARELY else margin, True)
+    at_best = float(margins(formula.root, columns, period, optimistic=True)[0])
+    undecided = at_best > 0.0
     row = _first_violation(formula.root, columns, period, optimistic=not undecided)
     return Verdict(
         name,
         text,
-        np.nan if undecided else float(at_best) if at_best != -BARELY else 0.0,
+        np.nan if undecided else 0.0 if at_best == -BARELY else at_best,
         False,
         _time(columns, row, period),
         _not_a_number(formula, columns, period) if undecided else None,

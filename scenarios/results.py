@@ -176,15 +176,15 @@ class RunResult:
         InputError
             If the folder cannot be written.
         """
+        from .checking import resolve
         from .figures import draw_run
         from .loading import to_yaml
 
         folder = writable_folder(folder)
         self.trace.write(folder / "trace.parquet")
         (folder / "summary.json").write_text(json.dumps(self.summary, indent=2) + "\n")
-        (folder / "scenario.yaml").write_text(to_yaml(self.scenario))
-        if len(self.trace) > 1:
-            draw_run(self, folder / "figure.png")
+        (folder / "scenario.yaml").write_text(to_yaml(resolve(self.scenario)))
+        draw_run(self, folder / "figure.png")
         return folder
 
 

@@ -10,7 +10,7 @@ from cowalk.agents.automations.settings import NegotiationSettings
 from cowalk.agents.humans.intention import IntentionSettings
 from cowalk.sim.motion import TwistBounds
 from cowalk.sim.plant import Rates
-from cowalk.sim.sensor import SensorParameters
+from cowalk.sim.sensor_parameters import SensorParameters
 from cowalk.sim.world import World
 
 SUFFIX = ".scenario.yaml"

@@ -15,7 +15,8 @@ from .observation import OBSTACLE_ROWS, Eyes, Observation
 from .plant import BASE_RADIUS, HUMAN_RADIUS, Plant, PlantState, Rates
 from .plants import PLANTS
 from .reward import Reward
-from .sensor import ForceSensor, Reading, SensorParameters
+from .sensor import ForceSensor, Reading
+from .sensor_parameters import SensorParameters
 from .world import SEATS, Clearance, Corridor, World
 
 STRAIGHT_CORRIDOR = World(path=Path(((0.0, 0.0), (20.0, 0.0))), corridor=Corridor(width=3.0))
@@ -33,8 +34,8 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
     automation's is the twist to execute ``[v, omega]``, m/s and rad/s. Actions beyond the
     action space are clipped to it. Both seats perceive the same dict of named boxes: ``twist``
     (2,), ``force`` (samples, 2), ``force_valid`` (samples,), ``pose`` (3,), ``obstacles`` (8, 6)
-    and ``time`` (1,), with the meaning given in `cowalk.sim.observation.Observation`. Spaces do not depend on who
-    sits in the seats.
+    and ``time`` (1,), with the meaning given in `cowalk.sim.observation.Observation`. Spaces do
+    not depend on who sits in the seats.
 
     Rewards are those of `cowalk.sim.reward.Reward`. An episode terminates when the base
     reaches the end of the path (``goal``) or a body touches something solid (``collision``),
@@ -191,7 +192,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self._reading = self._sensor.measure(state.force_on_base)
         clearance, solid_clearance = self._clearance(state.pose, state.human_pose)
         observations = self._observations()
-        station = float(self._relative[0])
+        station = self._relative[0]
         goal = station >= self.world.path.length
         collision = solid_clearance < 0.0
         self._info = {"clearance": clearance, "goal": goal, "collision": collision}
@@ -252,7 +253,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
 
     def _observations(self) -> dict[str, Observation]:
         state = self._state
-        self._relative = self.world.path.relative_pose(state.pose)
+        self._relative = self.world.path.relative(*state.pose)
         twist, time = np.array(state.twist), np.array([self._step_count / self.rates.control])
         force = {"human": state.force_on_base, "automation": self._reading.force}
         valid = {"human": self._felt, "automation": self._reading.valid}
@@ -261,7 +262,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
                 twist=twist.copy(),
                 force=force[seat].copy(),
                 force_valid=valid[seat].astype(float),
-                pose=self._relative.copy(),
+                pose=np.array(self._relative),
                 obstacles=self._eyes[seat].look(state.pose),
                 time=time.copy(),
             )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-from .motion import Array
 from .plant import PlantState
 
 FORCE_SCALE = 7.5
@@ -44,7 +43,7 @@ class Reward:
     def __call__(
         self,
         state: PlantState,
-        relative_pose: Array,
+        relative_pose: tuple[float, float, float],
         clearance: float,
         collision: bool,
         goal: bool,
@@ -54,14 +53,14 @@ class Reward:
         Parameters
         ----------
         state : PlantState
-        relative_pose : ndarray, shape (3,)
+        relative_pose : (station, offset, heading)
             Base pose relative to the path: m, m, rad.
         clearance : float
             Distance of the nearest body to anything, m.
         collision, goal : bool
             Whether the step ended the episode that way.
         """
-        _, offset, heading = relative_pose.tolist()
+        _, offset, heading = relative_pose
         speed = state.twist[0]
         fx, fy = state.force_on_base.mean(axis=0).tolist()
         effort = (fx * fx + fy * fy) / FORCE_SCALE**2

@@ -8,7 +8,6 @@ import numpy as np
 
 from .errors import SimulationError
 from .plant import HUMAN_PLACE, PlantState, Rates
-from .topview import draw
 from .world import World
 
 
@@ -76,6 +75,9 @@ class UnicyclePlant:
 
     def render(self, width: int, height: int) -> np.ndarray:
         """See `Plant.render`: a drawing from above."""
+        # Matplotlib takes a while to import; whoever does not look need not wait for it.
+        from .topview import draw
+
         assert self._world is not None, "reset before render"
         return draw(self._world, self._state(), width, height)
 

@@ -14,16 +14,13 @@ from collections.abc import Callable
 import numpy as np
 
 from cowalk.agents.interfaces import Situation
-from cowalk.sim.motion import Array, arc_displacement, compose, world_to_base
+from cowalk.sim.motion import Array, arc_displacement, compose, unit_arc, world_to_base
 
 from .settings import NegotiationSettings
 
-_POINTS = 33
-_ROUNDS = 3
 
-
-def minimise(cost: Callable[[Array], Array], low: Array, high: Array) -> Array:
-    """Return where a cost over an interval is least: repeated grids, then a parabola's vertex.
+def minimise(cost: Callable[[Array], Array], low: Array, high: Array, points: int = 33) -> Array:
+    """Return where a cost over an interval is least: two grids, then a parabola's vertex.
 
     A grid finds the lowest of several valleys and a minimum at a bound, which bracketing
     methods do not, and costs a handful of array operations for any number of lanes.
@@ -33,17 +30,19 @@ def minimise(cost: Callable[[Array], Array], low: Array, high: Array) -> Array:
     cost : callable
         Takes an array of shape (..., n) and returns the cost of each element.
     low, high : ndarray, shape (...)
+    points : int
+        Number of points of each grid; the second covers two cells of the first.
 
     Returns
     -------
     ndarray, shape (...)
     """
-    share = np.linspace(0.0, 1.0, _POINTS)
+    share = np.linspace(0.0, 1.0, points)
     left, right = low[..., None], high[..., None]
-    for _ in range(_ROUNDS):
+    for _ in range(2):
         grid = left + (right - left) * share
         value = cost(grid)
-        best = np.clip(np.argmin(value, axis=-1), 1, _POINTS - 2)[..., None]
+        best = np.clip(np.argmin(value, axis=-1), 1, points - 2)[..., None]
         around = best + np.array([-1, 0, 1])
         abscissa = np.take_along_axis(grid, around, axis=-1)
         left, right = abscissa[..., :1], abscissa[..., 2:]
@@ -151,14 +150,20 @@ class TwistProblem(Problem):
         goal = situation.path.point_at(station + situation.pace * self._horizon)
         ahead = world_to_base(pose[..., None, :], goal)
         self._ahead, self._left = ahead[..., 0], ahead[..., 1]
+        self._reach_weight = self._w1 * self._horizon**2
+        self._pull_weight = self._w1 * self._horizon
+        self._rest = self._w1 * (self._ahead**2 + self._left**2)
 
     def _parabola(self, omega: Array) -> tuple[Array, Array, Array]:
         """Return (a, b, c) of J = a v^2 - 2 b v + c, each of shape (..., n)."""
-        unit = arc_displacement(np.stack((np.ones_like(omega), omega), axis=-1), self._horizon)
-        square = unit[..., 0] ** 2 + unit[..., 1] ** 2
-        along = unit[..., 0] * self._ahead + unit[..., 1] * self._left
-        rest = self._w1 * (self._ahead**2 + self._left**2) + self._w3 * omega**2
-        return self._w1 * square + self._w2, self._w1 * along, rest
+        ahead, left = unit_arc(omega * self._horizon)
+        square = ahead * ahead + left * left
+        along = ahead * self._ahead + left * self._left
+        return (
+            self._reach_weight * square + self._w2,
+            self._pull_weight * along,
+            self._rest + self._w3 * (omega * omega),
+        )
 
     def cost(self, twist: Array) -> Array:
         """See `Problem.cost`."""
@@ -198,7 +203,7 @@ class TwistProblem(Problem):
         def flat(omega: Array) -> Array:
             return omega.reshape(*self._pose.shape[:-1], -1)
 
-        omega = minimise(lambda turn: solve(turn)[1], *self._turn_bounds(lanes))
+        omega = minimise(lambda turn: solve(turn)[1], *self._turn_bounds(lanes), points=17)
         v = solve(omega[..., None])[0][..., 0]
         return np.stack((v, omega), axis=-1)
 

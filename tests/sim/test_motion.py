@@ -108,3 +108,9 @@ def test_degenerate_paths_are_refused(points):
 def test_bounds_must_be_ordered():
     with pytest.raises(ValueError, match="omega"):
         TwistBounds(lower=(0.0, 0.5), upper=(1.0, 0.5))
+
+
+@given(poses)
+def test_the_fast_relative_pose_is_the_same_one(pose):
+    for path in (BENT, Path(((1.0, 2.0), (4.0, 6.0)))):
+        np.testing.assert_allclose(path.relative(*pose), path.relative_pose(pose), atol=1e-12)

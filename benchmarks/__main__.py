@@ -1,0 +1,24 @@
+"""Print every measurement as a table: ``python -m benchmarks``."""
+
+from __future__ import annotations
+
+from rich.console import Console
+from rich.table import Table
+
+from . import closed_loop
+
+SUBJECTS = {"closed loop": closed_loop.measure}
+
+
+def main() -> None:
+    """Measure every subject and print a table each."""
+    console = Console()
+    for title, measure in SUBJECTS.items():
+        table = Table("measurement", "value", "unit", title=title, title_justify="left")
+        for what, value, unit in measure():
+            table.add_row(what, f"{value:.3g}", unit)
+        console.print(table)
+
+
+if __name__ == "__main__":
+    main()

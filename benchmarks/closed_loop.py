@@ -1,0 +1,54 @@
+"""A whole closed-loop run beside the bare engine steps of the same world."""
+
+from __future__ import annotations
+
+from cowalk.scenarios.loading import load
+from cowalk.scenarios.runner import make_env, run
+
+from .timing import best
+
+SCENARIO = "puddle"
+STEPS = 300
+"""Control steps timed of each part."""
+
+
+def measure() -> list[tuple[str, float, str]]:
+    """Return rows of (what, value, unit)."""
+    scenario = load(SCENARIO)
+    shorter = scenario.model_copy(update={"duration": STEPS * scenario.rates.period, "expect": {}})
+    substeps = STEPS * scenario.rates.substeps
+    unicycle = shorter.model_copy(
+        update={"plant": shorter.plant.model_copy(update={"name": "unicycle"})}
+    )
+    env = make_env(shorter)
+    env.reset(seed=0)
+    plant = env._plant
+
+    def bare() -> None:
+        for _ in range(substeps):
+            plant.bare_step()
+
+    def driven() -> None:
+        plant.reset(scenario.world, None)
+        for _ in range(STEPS):
+            plant.step((0.8, 0.0), (0.0, 0.0))
+
+    # Interleaved, so that a slow moment of the machine hits all of them.
+    wall = {"bare": [], "plant": [], "run": [], "unicycle": []}
+    for _ in range(5):
+        wall["bare"].append(best(bare, 1))
+        wall["plant"].append(best(driven, 1))
+        wall["run"].append(run(shorter).summary["wall_time_s"])
+        wall["unicycle"].append(run(unicycle).summary["wall_time_s"])
+    env.close()
+    fastest = {name: min(times) for name, times in wall.items()}
+    simulated = STEPS * scenario.rates.period
+    return [
+        ("bare engine step", fastest["bare"] / substeps * 1e6, "us"),
+        ("plant, a physics step", fastest["plant"] / substeps * 1e6, "us"),
+        ("whole run, a physics step", fastest["run"] / substeps * 1e6, "us"),
+        ("ratio of the plant to bare engine steps", fastest["plant"] / fastest["bare"], "1"),
+        ("ratio of a whole run to bare engine steps", fastest["run"] / fastest["bare"], "1"),
+        ("whole run in PyBullet, times real time", simulated / fastest["run"], "1"),
+        ("whole run on the unicycle, times real time", simulated / fastest["unicycle"], "1"),
+    ]

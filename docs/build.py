@@ -1,0 +1,54 @@
+"""Refresh what the documents quote: ``python docs/build.py`` reruns the commands they show."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+DOCS = Path(__file__).parent
+ROOT = DOCS.parent
+COMMAND = Path(sys.executable).parent / "cowalk"
+
+
+def output(*arguments: str) -> str:
+    """Return what a command prints."""
+    done = subprocess.run(
+        [COMMAND, *arguments], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    return "\n".join(line.rstrip() for line in done.stdout.strip().splitlines())
+
+
+def quote(file: Path, name: str, text: str) -> None:
+    """Put text between the markers ``<!-- name -->`` and ``<!-- /name -->`` of a document."""
+    pattern = re.compile(rf"(<!-- {name} -->\n).*?(\n<!-- /{name} -->)", re.DOTALL)
+    before = file.read_text()
+    if not pattern.search(before):
+        raise SystemExit(f"{file}: no place marked {name}")
+    file.write_text(pattern.sub(lambda found: found[1] + text + found[2], before))
+
+
+def fenced(text: str, language: str = "text") -> str:
+    """Return text as a code block."""
+    return f"```{language}\n{text}\n```"
+
+
+def main() -> None:
+    """Rerun and quote everything."""
+    images = DOCS / "images"
+    with tempfile.TemporaryDirectory() as folder:
+        printed = output("run", "puddle", "--out", f"{folder}/puddle")
+        printed = printed.replace(folder, "runs")
+        quote(ROOT / "README.md", "run", fenced(printed))
+        (images / "puddle.png").write_bytes(Path(folder, "puddle", "figure.png").read_bytes())
+        output("paper", "--out", folder)
+        (images / "paper.png").write_bytes(Path(folder, "panels.png").read_bytes())
+    quote(DOCS / "model.md", "paper", fenced(output("paper")))
+    puddle = (ROOT / "scenarios" / "library" / "puddle.scenario.yaml").read_text().rstrip()
+    quote(DOCS / "scenarios.md", "puddle", fenced(puddle, "yaml"))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,200 @@
+"""A run seen from above: the world, the walked paths, and what both sides wanted on the way."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PatchCollection
+from matplotlib.patches import Circle
+from numpy.typing import NDArray
+
+from cowalk.sim.motion import Array, arc_displacement, compose
+from cowalk.sim.plant import BASE_RADIUS, HUMAN_RADIUS
+
+from .figures_panels import TRUTH
+from .figures_style import AGREED, AUTOMATION, HUMAN, MUTED, halo, label_unit
+
+if TYPE_CHECKING:
+    from cowalk.sim.world import World
+
+    from .results import RunResult
+
+Rows = NDArray[np.intp]
+"""Row numbers of a trace."""
+MARGIN = 0.2
+"""Ground shown beyond walls, obstacles and bodies, m."""
+FOOTPRINTS = 12
+"""Footprints drawn along a run, at most."""
+WISHES: tuple[tuple[str, str, dict[str, Any]], ...] = (
+    ("true", "$p_H$ true", {"color": HUMAN, "linewidth": TRUTH["lw"], "alpha": TRUTH["alpha"]}),
+    ("est", r"$\hat{p}_H$ estimated", {"color": HUMAN, "linewidth": 1.3}),
+    ("wish", "$p_A^*$", {"color": AUTOMATION, "linewidth": 1.3}),
+)
+"""Prefix of the trace columns, label and look of each wish; the first lies undermost."""
+
+
+class Window(NamedTuple):
+    """The ground that is shown, in m."""
+
+    left: float
+    right: float
+    bottom: float
+    top: float
+
+    @property
+    def aspect(self) -> float:
+        """Height over width."""
+        return (self.top - self.bottom) / (self.right - self.left)
+
+
+def window_of(world: World, data: dict[str, Array]) -> Window:
+    """Return the ground that holds the walls, every obstacle, and the bodies all the way."""
+    discs = [(o.x, o.y, o.radius) for o in world.obstacles]
+    discs.append((*world.start[:2], BASE_RADIUS))
+    rows = np.array(discs)
+    for x, y, radius in (("x", "y", BASE_RADIUS), ("human_x", "human_y", HUMAN_RADIUS)):
+        known = np.isfinite(data[x]) & np.isfinite(data[y])
+        body = np.stack((data[x], data[y], np.full(len(known), radius)), axis=-1)
+        rows = np.concatenate((rows, body[known]))
+    low = np.min(rows[:, :2] - rows[:, 2:], axis=0) - MARGIN
+    high = np.max(rows[:, :2] + rows[:, 2:], axis=0) + MARGIN
+    if world.corridor:
+        half = world.corridor.width / 2.0 + MARGIN
+        low[1], high[1] = min(low[1], -half), max(high[1], half)
+    return Window(low[0], high[0], low[1], high[1])
+
+
+def draw_top_view(axis: Axes, result: RunResult, data: dict[str, Array], window: Window) -> None:
+    """Draw a run from above, to scale.
+
+    Parameters
+    ----------
+    axis : Axes
+        Where to.
+    result : RunResult
+        Its scenario gives the world and the horizon of the wishes.
+    data : dict of ndarray, each of shape (rows,)
+        The trace's columns.
+    window : Window
+        What to show at least.
+    """
+    _draw_world(axis, result.scenario.world, window)
+    axis.plot(data["x"], data["y"], color=AGREED, lw=1.6, zorder=4, label="base")
+    axis.plot(
+        data["human_x"], data["human_y"], color=HUMAN, ls="--", lw=1.3, zorder=4, label="human"
+    )
+    horizon = result.scenario.automation.negotiation.horizon
+    times, rows, stride = _footprints(data["t"], horizon)
+    _draw_bodies(axis, data, rows)
+    _draw_wishes(axis, data, rows[::stride], horizon)
+    _draw_times(axis, data, rows[::stride], times[::stride])
+    axis.set_title("Top view")
+    label_unit(axis, "$y$ (m)")
+    axis.set_xlabel("$x$ (m)", labelpad=1.0)
+    axis.grid(visible=False)
+    # A window that does not fill its box shows more ground instead of a smaller picture:
+    # auto leaves the limits open to that.
+    axis.set_xlim(window.left, window.right, auto=True)
+    axis.set_ylim(window.bottom, window.top, auto=True)
+    axis.set_aspect("equal", adjustable="datalim")
+
+
+def _draw_world(axis: Axes, world: World, window: Window) -> None:
+    if world.corridor:
+        half = world.corridor.width / 2.0
+        # Far beyond the window, which may grow to fill its box.
+        for wall, beyond in ((-half, -1000.0), (half, 1000.0)):
+            axis.axhspan(wall, beyond, color="#D9D9D9", lw=0.0, zorder=0)
+            axis.axhline(wall, color=AGREED, lw=1.2, zorder=1)
+    reach = 10.0 * (window.right - window.left + window.top - window.bottom)
+    path = world.path
+    knots = path.point_at(np.array([-reach, path.length + reach]))
+    points = np.concatenate((knots[:1], np.asarray(path.points), knots[1:]))
+    axis.plot(*points.T, color=AUTOMATION, ls=(0, (1, 2)), lw=1.2, zorder=1, label="path")
+    for obstacle in world.obstacles:
+        look: dict[str, Any] = (
+            {"facecolor": "#6B6B6B", "edgecolor": AGREED}
+            if obstacle.solid
+            else {"facecolor": "#CFE8F3", "edgecolor": "#5B8FA8", "hatch": "////"}
+        )
+        centre = (obstacle.x, obstacle.y)
+        axis.add_patch(Circle(centre, obstacle.radius, lw=0.8, zorder=1, **look))
+        seen = (
+            ""
+            if len(obstacle.seen_by) > 1
+            else f" (seen by {' '.join(obstacle.seen_by) or 'no one'})"
+        )
+        _write(axis, obstacle.kind + seen, (centre[0], centre[1] - obstacle.radius), above=False)
+
+
+def _footprints(t: Array, horizon: float) -> tuple[Array, Rows, int]:
+    """Return times and rows at which bodies are drawn, and every how many of them wishes are."""
+    if not len(t):
+        return np.zeros(0), np.zeros(0, dtype=np.intp), 1
+    steps = np.array([1.0, 2.0, 5.0]) * 10.0 ** np.arange(-3, 5)[:, None]
+    interval = next(step for step in steps.flat if step >= max(t[0], t[-1] / FOOTPRINTS))
+    times = np.arange(0.0, t[-1] + 1e-9, interval)
+    rows, first = np.unique(np.searchsorted(t, times - 1e-9), return_index=True)
+    # Consecutive arcs of one kind would run into each other below one horizon.
+    return times[first], rows, max(1, int(np.ceil(1.3 * horizon / interval)))
+
+
+def _draw_bodies(axis: Axes, data: dict[str, Array], rows: Rows) -> None:
+    base = np.stack((data["x"], data["y"]), axis=-1)[rows]
+    human = np.stack((data["human_x"], data["human_y"]), axis=-1)[rows]
+    for centres, radius, color in ((base, BASE_RADIUS, AGREED), (human, HUMAN_RADIUS, HUMAN)):
+        discs = [Circle((x, y), radius) for x, y in centres if np.isfinite(x + y)]
+        axis.add_collection(
+            PatchCollection(discs, facecolor="none", edgecolor=color, lw=0.7, alpha=0.6, zorder=3),
+            autolim=False,
+        )
+    # The arm: which two footprints belong together.
+    arms = np.stack((base, human), axis=1)
+    axis.add_collection(LineCollection(list(arms), color=MUTED, lw=0.6, zorder=2), autolim=False)
+
+
+def _draw_wishes(axis: Axes, data: dict[str, Array], rows: Rows, horizon: float) -> None:
+    poses = np.stack((data["x"], data["y"], data["theta"]), axis=-1)[rows]
+    # The wishes held from a row's pose onwards are those of the next row.
+    after = np.minimum(rows + 1, len(data["t"]) - 1)
+    durations = np.linspace(0.0, horizon, 25)
+    for order, (prefix, label, look) in enumerate(WISHES):
+        twists = np.stack((data[f"{prefix}_v"], data[f"{prefix}_omega"]), axis=-1)[after]
+        known = np.isfinite(twists).all(axis=-1) & np.isfinite(poses).all(axis=-1)
+        if not known.any():
+            continue
+        ways = arc_displacement(twists[known][:, None, :], durations)
+        arcs = compose(poses[known][:, None, :], ways)[..., :2]
+        axis.add_collection(
+            LineCollection(list(arcs), label=label, zorder=5 + order, **look), autolim=False
+        )
+        if "alpha" not in look:
+            axis.scatter(
+                arcs[:, -1, 0], arcs[:, -1, 1], s=9.0, color=look["color"], zorder=5 + order, lw=0.0
+            )
+
+
+def _draw_times(axis: Axes, data: dict[str, Array], rows: Rows, times: Array) -> None:
+    for row, time in zip(rows, times, strict=True):
+        place = data["x"][row], data["y"][row] + BASE_RADIUS
+        if np.isfinite(place).all():
+            _write(axis, f"{time:g} s", place, above=True)
+
+
+def _write(axis: Axes, text: str, place: tuple[float, float], above: bool) -> None:
+    axis.annotate(
+        text,
+        place,
+        xytext=(0, 2 if above else -2),
+        textcoords="offset points",
+        ha="center",
+        va="bottom" if above else "top",
+        fontsize=7.0,
+        color=AGREED,
+        path_effects=halo(),
+        parse_math=False,
+        zorder=9,
+        annotation_clip=True,
+    )

@@ -1,0 +1,284 @@
+import json
+import os
+import pty
+import subprocess
+import sys
+import time
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from cowalk.scenarios import calibration, cli, compare, paper
+from cowalk.scenarios.results import Trace
+
+
+@pytest.fixture
+def cowalk(monkeypatch, capfd):
+    """Run the command; return exit code, standard output and standard error."""
+
+    def call(*arguments):
+        monkeypatch.setattr(sys, "argv", ["cowalk", *map(str, arguments)])
+        with pytest.raises(SystemExit) as end:
+            cli.main()
+        return end.value.code, *capfd.readouterr()
+
+    return call
+
+
+@pytest.fixture
+def refused(cowalk):
+    """Run the command, which must end with code 2 and one line; return the line."""
+
+    def call(*arguments):
+        code, out, err = cowalk(*arguments)
+        assert code == 2
+        assert out == ""
+        assert err.startswith("cowalk: ")
+        assert err.count("\n") == 1
+        return err
+
+    return call
+
+
+def test_help_answers_within_half_a_second():
+    started = time.perf_counter()
+    shown = subprocess.run(
+        [sys.executable, "-c", "from cowalk.scenarios.cli import main; main()", "--help"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert time.perf_counter() - started < 0.5 * _slowness()
+    assert all(word in shown.stdout for word in ("run", "list", "paper", "compare", "check"))
+
+
+def _slowness():
+    """Return how much slower than usual this machine starts Python just now, at least 1."""
+    started = time.perf_counter()
+    subprocess.run([sys.executable, "-c", "pass"], check=True)
+    return max(1.0, (time.perf_counter() - started) / 0.05)
+
+
+def test_help_imports_nothing_heavy():
+    code = (
+        "import sys\nfrom cowalk.scenarios.cli import main\n"
+        "try: main()\nexcept SystemExit: pass\n"
+        "print(sorted({'numpy', 'pydantic', 'rtamt', 'rich', 'yaml'} & set(sys.modules)))"
+    )
+    command = [sys.executable, "-c", code, "--help"]
+    shown = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert shown.stdout.splitlines()[-1] == "[]"
+
+
+@pytest.mark.parametrize(
+    "command", ["run", "list", "check", "paper", "compare", "compare smoothers"]
+)
+def test_every_command_explains_itself(cowalk, command):
+    code, out, _ = cowalk(*command.split(), "--help")
+    assert code == 0
+    assert "Usage: cowalk " + command in out
+    assert command == "compare" or "Examples:\n    cowalk " + command in out
+
+
+def test_without_a_command_there_is_help(cowalk):
+    code, out, _ = cowalk()
+    assert code == 0
+    assert out.startswith("Usage: cowalk")
+
+
+def test_a_run_writes_its_folder_and_ends_with_table_picture_and_speed(
+    cowalk, scenario_file, folder
+):
+    expect = "expect:\n  walks on: eventually (x >= 1.0)\n"
+    code, out, err = cowalk("run", scenario_file(more=expect))
+    assert (code, err) == (0, "")
+    written = {file.name for file in (folder / "runs/walk").iterdir()}
+    assert written == {"trace.parquet", "summary.json", "scenario.yaml", "figure.png"}
+    for words in ("smallest clearance", "walks on", "holds", "runs/walk/figure.png", "real time"):
+        assert words in out
+
+
+def test_the_kept_scenario_runs_again_to_the_same_trace(cowalk, scenario_file, folder):
+    cowalk("run", scenario_file(), "--human", "escalating", "--seed", 4, "--out", "first")
+    code, _, _ = cowalk("run", "first/scenario.yaml", "--out", "second")
+    assert code == 0
+    first, second = (
+        Trace.read(folder / name / "trace.parquet").values for name in ("first", "second")
+    )
+    np.testing.assert_array_equal(first, second)
+
+
+def test_a_failed_expectation_is_named_with_margin_and_time(cowalk, scenario_file):
+    expect = "expect:\n  not far: always (x <= 1.02)\n"
+    code, out, err = cowalk("run", scenario_file(more=expect))
+    assert (code, err) == (1, "")
+    (line,) = [line for line in out.splitlines() if "FAILS" in line]
+    assert "not far" in line
+    assert "margin -1.38" in line
+    assert "first violated at t = 1.3 s" in line
+
+
+def test_json_alone_is_on_standard_output_even_with_the_engine(scenario_file):
+    expect = "expect:\n  hangs on NaN: always (est_v >= 0.0 * est_v)\n"
+    command = [sys.executable, "-c", "from cowalk.scenarios.cli import main; main()"]
+    arguments = ["run", str(scenario_file(more=expect)), "--plant", "bullet", "--json"]
+    shown = subprocess.run([*command, *arguments], capture_output=True, text=True, check=False)
+    summary = json.loads(shown.stdout)
+    assert summary["plant"] == "bullet"
+    assert summary["folder"] == "runs/walk"
+    assert summary["passed"] is (shown.returncode == 0)
+    assert shown.stderr == ""
+
+
+def test_parts_are_swapped_and_values_set(cowalk, scenario_file):
+    code, out, _ = cowalk(
+        *("run", scenario_file(), "--json", "--automation", "stubbornness", "--smoother", "kalman"),
+        *("--human", "my_models:Quiet", "--seed", 9, "--set", "duration=1.0", "--set", "pace=0.5"),
+    )
+    summary = json.loads(out)
+    assert code == 0
+    assert (summary["human"], summary["automation"]) == ("my_models:Quiet", "stubbornness")
+    assert (summary["smoother"], summary["seed"]) == ("kalman", 9)
+    assert summary["simulated_time_s"] == pytest.approx(1.0)
+
+
+def test_bad_input_is_one_line_that_names_what_would_be_right(refused, scenario_file):
+    file = scenario_file()
+    for arguments, words in {
+        ("run", "pudle"): "did you mean 'puddle'?",
+        ("run", "no.yaml"): "no.yaml: this scenario file does not exist",
+        ("run", file, "--human", "stedy"): "--human stedy: human.name: unknown human 'stedy'; did",
+        ("run", file, "--smoother", "x"): "--smoother x: automation.smoother.name: unknown",
+        ("run", file, "--set", "humn.x=1"): "--set humn.x=1: humn: unknown key; did you mean 'hum",
+        ("run", file, "--set", "pace=fast"): "pace = 'fast': a number is expected, not text",
+        ("run", file, "--set", "rates.control=7"): "7 Hz; 238 would be",
+        ("run", file, "--seed", "-3"): "--seed -3: seed = -3: it must be at least 0",
+        ("run", file, "--seed", "x"): "'--seed'",
+        ("run", file, "--sed", "3"): "No such option: --sed",
+        ("run", file, "--human", "my_models:Unbuildable"): "it cannot be built: KeyError",
+        ("run", file, "--human", "my_models:Picky"): "human.parameters.push is missing",
+        ("run", file, "--human", "my_models:Nobody"): "cannot be imported",
+        ("run",): "Missing argument",
+        ("runn", file): "No such command",
+        ("list", "robots"): "'robots' is not one of 'scenarios', 'humans'",
+        ("compare", "smoothers", file, "-n", "0"): "'-n'",
+    }.items():
+        assert words in refused(*arguments)
+
+
+def test_a_folder_that_cannot_be_written_is_refused_before_the_run(
+    refused, scenario_file, folder, monkeypatch
+):
+    monkeypatch.setattr("cowalk.scenarios.runner.run", None)  # would fail if it were called
+    (folder / "taken").write_text("a regular file")
+    words = "--out taken/below: cannot write there"
+    assert words in refused("run", scenario_file(), "--out", "taken/below")
+    assert words in refused("paper", "--out", "taken/below")
+
+
+@pytest.mark.parametrize(
+    ("human", "words"), [("TurnsToNan", "nan"), ("Interrupted", "interrupted")]
+)
+def test_a_run_that_dies_keeps_its_trace_so_far(refused, scenario_file, folder, human, words):
+    message = refused("run", scenario_file(), "--human", f"my_models:{human}", "--out", "kept")
+    assert words in message
+    assert "21 rows, is in kept/trace.parquet" in message
+    assert len(Trace.read(folder / "kept/trace.parquet")) == 21
+    assert json.loads((folder / "kept/summary.json").read_text())["error"]
+    assert (folder / "kept/scenario.yaml").exists()
+
+
+def test_an_aborted_run_still_gives_its_json(cowalk, scenario_file):
+    code, out, err = cowalk("run", scenario_file(), "--human", "my_models:TurnsToNan", "--json")
+    assert code == 2
+    assert json.loads(out)["passed"] is False
+    assert err.count("\n") == 1
+
+
+def test_list_gives_a_line_each(cowalk):
+    code, out, _ = cowalk("list")
+    assert code == 0
+    for words in ("puddle", "escalating", "never-yields", "moving-average", "unicycle"):
+        assert words in out
+    _, out, _ = cowalk("list", "smoothers", "--json")
+    (names,) = json.loads(out).values()
+    assert [entry["name"] for entry in names] == ["kalman", "moving-average"]
+    assert all(entry["description"].endswith(".") for entry in names)
+
+
+def test_check_reports_every_fault_of_every_file(cowalk, scenario_file):
+    good = scenario_file(name="good.yaml")
+    bad = scenario_file(("duration: 3.0", "duration: x\npaec: 1"), name="bad.yaml")
+    code, out, _ = cowalk("check", good, bad, "missing.yaml")
+    assert code == 2
+    lines = out.splitlines()
+    assert lines[0] == f"{good}: no fault"
+    assert lines[1].startswith(f"{bad}:2: duration = 'x'")
+    assert lines[2].startswith(f"{bad}:3: paec: unknown key; did you mean 'pace'?")
+    assert lines[3].startswith("missing.yaml: ")
+    assert cowalk("check", good, "puddle")[0] == 0
+
+
+def _rows(passed):
+    return [paper.Row("turns", 0.4, 0.41, 0.03, "rad/s", passed)]
+
+
+@pytest.mark.parametrize("passed", [True, False])
+def test_paper_prints_rows_constants_and_the_verdict(cowalk, monkeypatch, passed):
+    monkeypatch.setattr(paper, "reproduce", lambda: _rows(passed))
+    monkeypatch.setattr(paper, "constants", lambda: {"tau, s": 2.5})
+    code, out, _ = cowalk("paper")
+    assert code == (0 if passed else 1)
+    assert "0.41" in out
+    assert "inferred" in out
+    assert "tau, s" in out
+    _, out, _ = cowalk("paper", "--json")
+    shown = json.loads(out)
+    assert shown["rows"][0]["passed"] is shown["passed"] is passed
+    assert shown["inferred"] == {"tau, s": 2.5}
+
+
+def test_paper_searches_with_the_seed_given(cowalk, monkeypatch):
+    def search(seed, progress):
+        progress(1, 2)
+        return {"tau, s": float(seed)}, _rows(True)
+
+    monkeypatch.setattr(calibration, "calibrate", search)
+    code, out, _ = cowalk("paper", "--calibrate", "--seed", 3, "--json")
+    assert code == 0
+    assert json.loads(out)["inferred"] == {"tau, s": 3.0}
+
+
+def test_compare_shows_whatever_scores_there_are(cowalk, scenario_file, monkeypatch):
+    @dataclass
+    class Score:
+        smoother: str
+        lag_s: float
+
+    def scores(scenario, seeds, progress):
+        progress(seeds, seeds)
+        return [Score(scenario.name, float(seeds)), Score("nothing", float("nan"))]
+
+    monkeypatch.setattr(compare, "compare_smoothers", scores)
+    code, out, _ = cowalk("compare", "smoothers", scenario_file(), "-n", 7)
+    assert code == 0
+    assert "lag s" in out
+    _, out, _ = cowalk("compare", "smoothers", scenario_file(), "-n", 7, "--json")
+    assert json.loads(out)["scores"] == [
+        {"smoother": "walk", "lag_s": 7.0},
+        {"smoother": "nothing", "lag_s": None},
+    ]
+
+
+def test_progress_is_shown_on_a_terminal_alone(scenario_file):
+    command = [sys.executable, "-c", "from cowalk.scenarios.cli import main; main()"]
+    arguments = ["run", str(scenario_file()), "--json"]
+    ours, theirs = pty.openpty()
+    with subprocess.Popen([*command, *arguments], stdout=subprocess.PIPE, stderr=theirs) as process:
+        out, _ = process.communicate(timeout=60)
+    os.close(theirs)
+    shown = os.read(ours, 100_000).decode()
+    os.close(ours)
+    assert json.loads(out)["passed"] is True
+    assert "walk" in shown

@@ -1,0 +1,249 @@
+import re
+
+import pytest
+
+from cowalk.scenarios.loading import faults, library, load, to_yaml
+from cowalk.sim.errors import InputError
+
+
+def reported(file):
+    return [(fault.line, fault.key) for fault in faults(file)]
+
+
+def refusal(source, *overrides):
+    with pytest.raises(InputError) as error:
+        load(source, overrides)
+    assert "\n" not in str(error.value)
+    return str(error.value)
+
+
+def test_every_shipped_scenario_loads_by_its_name():
+    assert {"puddle", "paper-open-loop"} <= set(library())
+    for name, file in library().items():
+        assert load(name).name == name
+        assert faults(file) == []
+
+
+def test_a_scenario_is_found_by_its_path_too(scenario_file):
+    assert load(scenario_file()).name == load(str(scenario_file())).name == "walk"
+
+
+@pytest.mark.parametrize("name", sorted(library()))
+def test_what_is_written_loads_as_an_equal_scenario(name, tmp_path):
+    scenario = load(name)
+    copy = tmp_path / "copy.yaml"
+    copy.write_text(to_yaml(scenario))
+    assert load(copy) == scenario
+    assert "control: 20" in copy.read_text()  # defaults are written out
+    assert "!!" not in copy.read_text()
+
+
+def test_an_unknown_name_is_answered_with_the_nearest():
+    assert "did you mean 'puddle'" in refusal("pudle")
+    assert "does not exist" in refusal("no/such.yaml")
+
+
+def test_all_faults_of_a_file_are_reported_with_their_lines(folder):
+    file = folder / "broken.scenario.yaml"
+    file.write_text(
+        """\
+name: broken
+seed: true
+duration: "30"
+pace: .nan
+plant: unicycle
+rates: {control: 20.5, fisics: 240}
+world:
+  path: {points: [[0, 0], [1, "0"]]}
+  obstacles:
+    - {x: 1, y: 2, radius: 1e-1, kindd: puddle}
+human:
+  name: escalating
+  parameters:
+    initial: 0.3
+    grwth: 1
+  intention: {pacee: 3}
+automation:
+  name: stubborn
+  smoother: {name: kalman, parameters: {process_noise: true}}
+  negotiation: {dimensions: v, sensitivity: [1]}
+bounds: {lower: [1, 2], upper: [0, 0]}
+expect:
+  a number: 3
+  not closed: always (x >
+  unknown column: always (clearence > 0)
+nam: 3
+pace: 1
+"""
+    )
+    assert reported(file) == [
+        (2, "seed"),
+        (3, "duration"),
+        (6, "rates.control"),
+        (6, "rates.fisics"),
+        (8, "world.path.points.1.1"),
+        (10, "world.obstacles.0.radius"),
+        (10, "world.obstacles.0.kindd"),
+        (14, "human.parameters.initial"),
+        (15, "human.parameters.grwth"),
+        (16, "human.intention.pacee"),
+        (18, "automation.name"),
+        (19, "automation.smoother.parameters.process_noise"),
+        (20, "automation.negotiation.dimensions"),
+        (20, "automation.negotiation.sensitivity.1"),
+        (21, "bounds"),
+        (23, "expect.a number"),
+        (24, "expect.not closed"),
+        (25, "expect.unknown column"),
+        (26, "nam"),
+        (27, "pace"),
+    ]
+    messages = "\n".join(map(str, faults(file)))
+    for words in (
+        f"{file}:3: duration = '30': a number is expected, not text; write 30 without quotes",
+        "radius = '1e-1': a number is expected, not text; write 0.1 without quotes",
+        "did you mean 'kind'?",
+        "did you mean 'growth'?",
+        "did you mean 'name'?",
+        "unknown automation 'stubborn'; did you mean 'stubbornness'?",
+        "it must be 'omega' or 'both'",
+        "did you mean 'clearance'?",
+        "pace is given twice, first in line 4",
+    ):
+        assert words in messages
+    assert not re.search(r"Input should|pydantic|Value error|validation", messages)
+    assert f"(+{len(faults(file)) - 1} more; see cowalk check {file})" in refusal(file)
+    assert refusal(file).startswith(f"{file}:2: seed = true: ")
+
+
+@pytest.mark.parametrize(
+    ("value", "words"),
+    [
+        ("-1", "it must be above 0"),
+        (".inf", "a finite number is expected"),
+        (".nan", "a finite number is expected"),
+        ("true", "a number is expected, not true or false"),
+        ("2024-01-01", "put it in quotes if it is text"),
+        ("null", "a number is expected, nothing is given"),
+        ("[1]", "a number is expected"),
+    ],
+)
+def test_a_wrong_duration_is_refused_with_key_value_and_cure(scenario_file, value, words):
+    file = scenario_file(("duration: 3.0", f"duration: {value}"))
+    assert [(fault.line, fault.key) for fault in faults(file)] == [(2, "duration")]
+    message = refusal(file)
+    assert message.startswith(f"{file}:2: duration")
+    assert words in message
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "words"),
+    [
+        ("name: a\nworld:\n\tpath: 3\n", 3, "indent with spaces"),
+        ("name: a\ndescription: a: b\n", 2, "put the value in quotes"),
+        ("name: [a\n", 2, "not YAML"),
+        ("name: a\nhuman: !!python/object:os.system x\n", 2, "no tag that a scenario may hold"),
+        ("", 1, "needs at least the keys name, world, human, automation"),
+        ("- name: a\n", 1, "needs at least the keys"),
+        ("name: &loop [*loop]\n", 1, "contains itself"),
+    ],
+)
+def test_what_is_no_scenario_at_all_is_one_fault(folder, text, line, words):
+    file = folder / "broken.yaml"
+    file.write_text(text)
+    (fault,) = faults(file)
+    assert fault.line == line
+    assert words in fault.message
+
+
+def test_missing_keys_are_named(folder):
+    file = folder / "short.yaml"
+    file.write_text("name: short\nhuman: steady\nworld: {}\n")
+    assert {fault.message for fault in faults(file)} == {
+        "automation is missing",
+        "world.path is missing",
+    }
+
+
+def test_a_folder_or_a_binary_file_is_no_scenario(folder):
+    binary = folder / "picture.yaml"
+    binary.write_bytes(b"\x89PNG\xff\xfe")
+    assert "UTF-8" in refusal(binary)
+    assert "is a folder" in refusal(folder)
+
+
+def test_rates_and_negotiation_period_must_divide(scenario_file):
+    file = scenario_file(more="rates: {control: 7}\n")
+    assert "7 Hz" in refusal(file)
+    assert reported(file) == [(8, "rates")]
+    file = scenario_file(
+        (
+            "automation: never-yields",
+            "automation: {name: never-yields, negotiation: {period: 0.72}}",
+        )
+    )
+    assert "automation.negotiation.period = 0.72 s is not a whole multiple" in refusal(file)
+
+
+def test_a_value_that_only_a_constructor_can_judge_is_found_at_its_line(scenario_file):
+    file = scenario_file(("  name: steady", "  name: my_models:Picky\n  parameters: {push: -1}"))
+    (fault,) = faults(file)
+    assert (fault.line, fault.key) == (7, "human.parameters.push")
+    assert fault.message == "human.parameters.push = -1.0: must not be negative"
+
+
+def test_overrides_replace_values_of_any_kind(scenario_file):
+    obstacle = "world: {obstacles: [{x: 1, y: 2, radius: 0.5}], "
+    scenario = load(
+        scenario_file(("world: {", obstacle)),
+        [
+            "human.parameters.gain=1.5",
+            "world.obstacles.0.x=9",
+            "bounds.upper=[1.0, 0.3]",
+            "rates.control=40",
+            "seed=7",
+        ],
+    )
+    assert scenario.human.parameters == {"gain": 1.5}
+    assert scenario.world.obstacles[0].x == 9.0
+    assert scenario.bounds.upper == (1.0, 0.3)
+    assert (scenario.rates.control, scenario.rates.physics, scenario.seed) == (40, 240, 7)
+
+
+def test_a_swapped_part_keeps_its_section_but_not_its_parameters(scenario_file):
+    file = scenario_file(
+        ("  name: steady", "  name: steady\n  parameters: {gain: 3.0}\n  intention: {margin: 0.4}"),
+        (
+            "automation: never-yields",
+            "automation:\n  name: stubbornness\n  parameters: {interaction_min: -1.5}\n"
+            "  negotiation: {horizon: 2.0}\n  smoother: kalman",
+        ),
+    )
+    scenario = load(file, ["human=escalating", "automation=always-yields"])
+    assert (scenario.human.name, scenario.human.parameters) == ("escalating", {})
+    assert scenario.human.intention.margin == 0.4
+    assert (scenario.automation.name, scenario.automation.parameters) == ("always-yields", {})
+    assert scenario.automation.negotiation.horizon == 2.0
+    assert scenario.automation.smoother.name == "kalman"
+
+
+@pytest.mark.parametrize(
+    ("override", "words"),
+    [
+        ("humn.parameters.gain=1", "did you mean 'human'?"),
+        ("human.parameters.gian=1", "did you mean 'gain'?"),
+        ("human.parameters.gain=abc", "a number is expected, not text"),
+        ("human.parameters.gain=true", "not true or false"),
+        ("human=foo", "unknown human 'foo'; Known: escalating, open-loop, steady"),
+        ("world.path.points.2.0=1", "world.path.points has 2 entries, 0 to 1; '2' is none"),
+        ("name.x=1", "name is 'walk', there is nothing inside it"),
+        ("rates.control=7", "is not a whole multiple"),
+        ("seed", "write KEY=VALUE"),
+        (".x=3", "write KEY=VALUE"),
+        ("seed=[", "'[' is not a YAML value"),
+    ],
+)
+def test_a_wrong_override_is_blamed_on_itself(scenario_file, override, words):
+    message = refusal(scenario_file(), override)
+    assert message.startswith(f"--set {override}: ")
+    assert words in message

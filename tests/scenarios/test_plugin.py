@@ -1,0 +1,139 @@
+import subprocess
+import sys
+import textwrap
+
+import pytest
+
+import cowalk.scenarios.margins
+import cowalk.scenarios.runner
+import cowalk.sim.unicycle  # noqa: F401  pytester forgets what is imported within it
+
+GOOD = """\
+name: good
+duration: 2.0
+plant: unicycle
+world: {path: {points: [[0.0, 0.0], [30.0, 0.0]]}}
+human: steady
+automation: never-yields
+expect:
+  walks on: eventually (x >= 1.0)
+  stays in the middle: always (abs(y) <= 0.01)
+"""
+
+
+@pytest.fixture
+def scenarios(pytester):
+    def write(**texts):
+        for name, text in texts.items():
+            (pytester.path / f"{name}.scenario.yaml").write_text(text)
+        return pytester
+
+    return write
+
+
+def test_a_good_and_a_broken_scenario_side_by_side(scenarios):
+    broken = GOOD.replace("human: steady", "human: stedy").replace("2.0", "-2.0")
+    result = scenarios(good=GOOD, broken=broken).runpytest_subprocess("-W", "error")
+    result.assert_outcomes(passed=2, failed=1)
+    result.stdout.fnmatch_lines(
+        [
+            "*broken.scenario.yaml is broken, 2 faults:",
+            "*line 2: duration = -2.0: it must be above 0*",
+            "*line 5: human.name: unknown human 'stedy'; did you mean 'steady'?*",
+        ]
+    )
+    result.stdout.no_fnmatch_line("*Traceback*")
+    result.stdout.no_fnmatch_line("*.py:*")
+
+
+def test_each_expectation_is_a_test_with_a_short_failure(scenarios):
+    text = GOOD + "  goes far: eventually (x >= 10.0)\n"
+    result = scenarios(good=text).runpytest_inprocess("-v", "-W", "error")
+    result.assert_outcomes(passed=2, failed=1)
+    result.stdout.fnmatch_lines(["*good.scenario.yaml::walks on PASSED*"])
+    result.stdout.fnmatch_lines(
+        [
+            "expectation: goes far",
+            "formula:     eventually (x >= 10.0)",
+            "fails:       margin -8.*, first violated at t = 2 s",
+            "to see the run: cowalk run *good.scenario.yaml",
+        ]
+    )
+    result.stdout.no_fnmatch_line("*Failure*")
+
+
+def test_one_expectation_can_be_chosen(scenarios):
+    result = scenarios(good=GOOD).runpytest_inprocess("good.scenario.yaml::walks on")
+    result.assert_outcomes(passed=1)
+
+
+def test_a_scenario_without_expectations_must_run_through(scenarios):
+    text = GOOD.partition("expect:")[0]
+    models = textwrap.dedent(
+        """
+        import numpy as np
+        from cowalk.agents.interfaces import Truth
+
+        class TurnsToNan:
+            def reset(self, rng, situation): pass
+            def act(self, observation): return np.full(2, np.nan)
+            def truth(self): return Truth(np.zeros(2), np.zeros(2))
+        """
+    )
+    pytester = scenarios(good=text, astray=text.replace("steady", "astray_models:TurnsToNan"))
+    pytester.makepyfile(astray_models=models)
+    result = pytester.runpytest_inprocess("-v")
+    result.assert_outcomes(passed=1, failed=1)
+    result.stdout.fnmatch_lines(["*good.scenario.yaml::runs to its end PASSED*"])
+    result.stdout.fnmatch_lines(["the run was aborted: *nan*"])
+    result.stdout.no_fnmatch_line("*Traceback*")
+
+
+def test_the_run_is_made_once_a_file(scenarios):
+    counting = """
+        from cowalk.agents.humans.steady import SteadyHuman
+        from pathlib import Path
+
+        class Counted(SteadyHuman):
+            def reset(self, rng, situation):
+                with Path("resets.txt").open("a") as file:
+                    file.write("reset\\n")
+                super().reset(rng, situation)
+        """
+    pytester = scenarios(good=GOOD.replace("steady", "counting_models:Counted"))
+    pytester.makepyfile(counting_models=counting)
+    pytester.runpytest_inprocess().assert_outcomes(passed=2)
+    assert (pytester.path / "resets.txt").read_text() == "reset\n"
+
+
+def test_the_fixture_runs_names_and_files_beside_the_test(scenarios):
+    pytester = scenarios()
+    folder = pytester.mkdir("deeper")
+    (folder / "good.scenario.yaml").write_text(GOOD)
+    (folder / "test_walk.py").write_text(
+        textwrap.dedent(
+            """
+            import pytest
+
+            def test_file(run_scenario):
+                result = run_scenario("good.scenario.yaml", "duration=1.5", seed=5)
+                assert result.passed and result.summary["seed"] == 5
+                assert len(result.trace) == 30
+
+            def test_name(run_scenario):
+                result = run_scenario("paper-open-loop", "duration=1.0", "expect={}")
+                assert result.trace["t"][-1] == pytest.approx(1.0)
+            """
+        )
+    )
+    result = pytester.runpytest_inprocess("-W", "error", "deeper/test_walk.py")
+    result.assert_outcomes(passed=2)
+
+
+def test_the_plugin_imports_nothing_heavy():
+    code = (
+        "import sys, cowalk.scenarios.pytest_plugin\n"
+        "print(sorted({'numpy', 'pydantic', 'yaml', 'rtamt', 'pybullet'} & set(sys.modules)))"
+    )
+    shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert shown.stdout == "[]\n"

@@ -1,0 +1,161 @@
+"""Whole runs: every shipped scenario, determinism, what a run folder holds, runs that break."""
+
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+
+from cowalk.agents import AUTOMATIONS, HUMANS
+from cowalk.estimation.smoothing import SMOOTHERS
+from cowalk.scenarios import load, make_env, run
+from cowalk.scenarios.loading import library
+from cowalk.scenarios.results import UNITS, Trace
+from cowalk.sim.plants import PLANTS
+
+
+def trace_of(source, *overrides):
+    result = run(load(source, overrides))
+    assert result.error is None, result.error
+    return result.trace
+
+
+@pytest.fixture(scope="module")
+def puddle():
+    return run(load("puddle"))
+
+
+@pytest.mark.parametrize("name", list(library()))
+def test_every_scenario_repeats_bit_for_bit_in_another_process(name):
+    here = trace_of(name)
+    code = (
+        "import sys; from cowalk.scenarios import load, run; "
+        f"sys.stdout.buffer.write(run(load({name!r})).trace.values.tobytes())"
+    )
+    there = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True).stdout
+    assert len(here) > 100
+    assert here.values.tobytes() == there[-here.values.nbytes :]
+
+
+@pytest.mark.parametrize("plant", PLANTS.names())
+@pytest.mark.parametrize("human", HUMANS.names())
+@pytest.mark.parametrize("automation", AUTOMATIONS.names())
+def test_every_human_meets_every_automation_on_every_plant(plant, human, automation):
+    trace = trace_of(
+        "puddle", f"plant={plant}", f"human={human}", f"automation={automation}", "duration=4"
+    )
+    assert len(trace) == 80
+    assert np.isfinite(trace.values).all()
+
+
+@pytest.mark.parametrize("smoother", SMOOTHERS.names())
+def test_every_smoother_runs_in_the_loop(smoother):
+    trace = trace_of("puddle", f"automation.smoother={smoother}", "duration=8", "plant=unicycle")
+    assert np.ptp(trace["smoothed_stubbornness_omega"]) > 0.05
+
+
+def test_the_walked_path_clears_the_puddle(puddle):
+    assert puddle.summary["end"] == "goal"
+    assert puddle.trace["clearance"].min() > 0.05
+    assert puddle.passed
+
+
+def test_the_force_is_the_constraints_and_not_the_intent(puddle):
+    noise = 0.05 / np.sqrt(12)  # of the sensor, averaged over a control step
+    for trace in (puddle.trace, trace_of("puddle", "sensor.noise=[0.0, 0.0]")):
+        walking = trace["t"] > 3.0
+        intent = trace["fy_intent"][walking]
+        difference = trace["fy"][walking] - intent
+        # The body between hand and handle adds dynamics: more than noise, less than the intent.
+        assert difference.std() > 3.0 * noise
+        assert np.corrcoef(trace["fy"][walking], intent)[0, 1] > 0.95
+
+
+def test_an_automation_that_never_yields_changes_the_humans_force(puddle):
+    stubborn = run(load("puddle", ["automation=never-yields"]))
+    assert stubborn.trace["clearance"].min() < 0.0
+    assert not stubborn.passed
+    mean = [np.abs(each.trace["fy_intent"]).mean() for each in (puddle, stubborn)]
+    assert mean[1] > 1.15 * mean[0]
+
+
+def test_the_seed_matters_and_the_noise_is_the_sensors():
+    one, two = trace_of("puddle", "seed=1"), trace_of("puddle", "seed=2")
+    same = trace_of("puddle", "seed=2")
+    assert one.values.tobytes() != two.values.tobytes()
+    assert two.values.tobytes() == same.values.tobytes()
+
+
+def test_a_run_folder_holds_everything_and_runs_again(puddle, tmp_path):
+    folder = puddle.write(tmp_path / "run")
+    schema = pq.read_schema(folder / "trace.parquet")
+    assert {field.name: field.metadata[b"unit"].decode() for field in schema} == UNITS
+    np.testing.assert_array_equal(Trace.read(folder / "trace.parquet").values, puddle.trace.values)
+    summary = json.loads((folder / "summary.json").read_text())
+    assert summary["seed"] == 1
+    assert summary["real_time_factor"] > 0.0
+    assert {"python", "cowalk", "pybullet", "numpy"} <= set(summary["versions"])
+    assert summary["metrics"]["smallest clearance"]["unit"] == "m"
+    assert (folder / "figure.png").read_bytes().startswith(b"\x89PNG")
+    resolved = load(folder / "scenario.yaml")
+    # Defaults are written out, so that the file still gives this run when they have changed.
+    assert resolved.human.parameters["growth"] == 0.38
+    assert resolved.automation.smoother.parameters == {"window": 5}
+    again = run(resolved)
+    assert again.trace.values.tobytes() == puddle.trace.values.tobytes()
+
+
+def test_make_env_builds_the_scenarios_world():
+    env = make_env("puddle")
+    observations, _ = env.reset(seed=0)
+    assert env.world == load("puddle").world
+    assert observations["human"]["obstacles"][0, 0] == 1.0
+    env.close()
+
+
+BROKEN = """
+import numpy as np
+from cowalk.agents import Truth
+
+class Base:
+    def reset(self, rng, situation): self.count = 0
+    def truth(self): return Truth(np.zeros(2), np.zeros(2))
+    def act(self, observation):
+        self.count += 1
+        return self.force() if self.count > 30 else np.zeros(2)
+
+class NotANumber(Base):
+    def force(self): return np.array([0.0, np.nan])
+
+class Infinite(Base):
+    def force(self): return np.array([np.inf, 0.0])
+
+class Raises(Base):
+    def force(self): raise ZeroDivisionError("division by zero")
+
+class ThreeNumbers(Base):
+    def force(self): return np.zeros(3)
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("NotANumber", "the human's force is [0.0, nan] at t = 1.5 s"),
+        ("Infinite", "the human's force is [inf, 0.0] at t = 1.5 s"),
+        ("Raises", "human 'broken_humans:Raises' failed at t = 1.5 s: ZeroDivisionError"),
+        ("ThreeNumbers", "it must be 2 numbers"),
+    ],
+)
+def test_a_run_that_dies_midway_says_why_and_keeps_its_trace(name, said, tmp_path, monkeypatch):
+    (tmp_path / "broken_humans.py").write_text(BROKEN)
+    monkeypatch.syspath_prepend(tmp_path)
+    result = run(load("puddle", [f"human=broken_humans:{name}", "plant=unicycle"]))
+    assert said in result.error
+    assert result.summary["end"] == "aborted"
+    assert len(result.trace) == 30
+    assert not result.passed
+    folder = result.write(tmp_path / "run")
+    assert len(Trace.read(folder / "trace.parquet")) == 30
