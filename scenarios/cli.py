@@ -6,6 +6,7 @@ Nothing but typer is imported before a command needs it, so that ``--help`` answ
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -46,6 +47,7 @@ class Kind(StrEnum):
     AUTOMATIONS = "automations"
     SMOOTHERS = "smoothers"
     PLANTS = "plants"
+    SENSORS = "sensors"
 
 
 @app.command(
@@ -153,11 +155,16 @@ def list_parts(
     kind: Annotated[Kind | None, typer.Argument(help="One kind alone.")] = None,
     as_json: Json = False,
 ) -> int:
-    """List scenarios, humans, automations, smoothers, plants."""
+    """List scenarios, humans, automations, smoothers, plants, sensor presets."""
     from cowalk.agents.registry import AUTOMATIONS, HUMANS
     from cowalk.estimation.smoothing import SMOOTHERS
     from cowalk.sim.plants import PLANTS
+    from cowalk.sim.sensor_parameters import PRESETS
 
+    described: dict[Kind, Callable[[], dict[str, str]]] = {
+        Kind.SCENARIOS: _scenarios,
+        Kind.SENSORS: lambda: {name: text for name, (text, _) in PRESETS.items()},
+    }
     registries: dict[Kind, Registry[Any]] = {
         Kind.HUMANS: HUMANS,
         Kind.AUTOMATIONS: AUTOMATIONS,
@@ -166,8 +173,8 @@ def list_parts(
     }
     found: dict[str, list[dict[str, str]]] = {}
     for each in [kind] if kind else Kind:
-        described = _parts(registries[each]) if each in registries else _scenarios()
-        found[each.value] = [{"name": n, "description": d} for n, d in described.items()]
+        parts = _parts(registries[each]) if each in registries else described[each]()
+        found[each.value] = [{"name": n, "description": d} for n, d in parts.items()]
     if as_json:
         emit_json(found)
     else:

@@ -87,7 +87,7 @@ class LowPass:
         block, rows, state, inputs = found
         state[:] = self._state
         inputs[:] = samples
-        both = block.dot(rows)
+        both: Array = block.dot(rows)
         self._state = both[n:]
         return both[:n]
 

@@ -64,7 +64,7 @@ def test_the_walked_path_clears_the_puddle(puddle):
 
 def test_the_force_is_the_constraints_and_not_the_intent(puddle):
     noise = 0.05 / np.sqrt(12)  # of the sensor, averaged over a control step
-    for trace in (puddle.trace, trace_of("puddle", "sensor.noise=[0.0, 0.0]")):
+    for trace in (puddle.trace, trace_of("puddle", "sensor.noise_density=0.0")):
         walking = trace["t"] > 3.0
         intent = trace["fy_intent"][walking]
         difference = trace["fy"][walking] - intent
