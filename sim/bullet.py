@@ -12,10 +12,11 @@ from numpy.typing import NDArray
 
 from .bullet_engine import connect, disconnect, engine, force_on_parent, load_driven
 from .bullet_view import Viewer
+from .bullet_world import EngineClearance
 from .drive import DriveParameters, SlipDrive
 from .errors import InputError, SimulationError
 from .motion import Array
-from .plant import HUMAN_PLACE, PlantState, Rates
+from .plant import BASE_RADIUS, HUMAN_PLACE, HUMAN_RADIUS, PlantState, Rates
 from .walker import Arm, Walker, WalkerParameters
 from .world import World
 
@@ -47,7 +48,7 @@ class BulletPlant:
 
     Both stand on planar joints (x, y, yaw). The base is driven by `SlipDrive`, trunk and arm by
     `Walker`; a point-to-point constraint joins hand and handle, and its reaction is the force.
-    Walls and obstacles are not in this world: `cowalk.sim.world.Clearance` judges collisions.
+    Walls and obstacles are not in this world: `cowalk.sim.bullet_world` judges collisions.
 
     Parameters
     ----------
@@ -105,12 +106,15 @@ class BulletPlant:
         self._gui = gui
         self._viewer: Viewer | None = None
         self._world: World | None = None
+        self._distances: EngineClearance | None = None
+        self._steps = 0
         self._base_state: tuple[float, ...] = ()
         self._human_state: tuple[float, ...] = ()
 
     def reset(self, world: World, rng: np.random.Generator) -> PlantState:
         """See `Plant.reset`."""
         self._world = world
+        self._steps = 0
         x, y, yaw = world.start
         cos, sin = math.cos(yaw), math.sin(yaw)
         place_x, place_y, place_yaw = HUMAN_PLACE
@@ -141,6 +145,7 @@ class BulletPlant:
             if not (math.isfinite(pair[0]) and math.isfinite(pair[1])):
                 raise SimulationError(f"{name} = {pair} is not finite")
         self._drive.command(speed, rate)
+        self._steps += 1
 
         # This loop is the cost of a run: names are bound here, and engine calls take all their
         # arguments by position, which makes the joint call 1 us faster than keywords do.
@@ -201,7 +206,15 @@ class BulletPlant:
             twist=(math.cos(yaw) * vx + math.sin(yaw) * vy, rate),
             human_pose=(human[0], human[1], human[2]),
             force_on_base=force,
+            time=self._steps * self._rates.period,
         )
+
+    def distances(self, world: World) -> EngineClearance:
+        """See `Plant.distances`: by the engine, from the shapes of base and body."""
+        if self._distances is not None:
+            self._distances.close()
+        self._distances = EngineClearance(world, (BASE_RADIUS, HUMAN_RADIUS))
+        return self._distances
 
     def bare_step(self) -> None:
         """Step the engine alone, nothing driven or read: what a benchmark compares with."""
@@ -228,4 +241,6 @@ class BulletPlant:
         """See `Plant.close`."""
         if self._viewer is not None:
             self._viewer.close()
+        if self._distances is not None:
+            self._distances.close()
         disconnect(self._client)

@@ -10,14 +10,16 @@ from gymnasium.spaces import Box, Dict
 from pettingzoo import ParallelEnv
 
 from .errors import SimulationError
+from .eyes import Eyes
 from .motion import Array, Path, TwistBounds
-from .observation import OBSTACLE_ROWS, Eyes, Observation
-from .plant import BASE_RADIUS, HUMAN_RADIUS, Plant, PlantState, Rates
+from .observation import OBSTACLE_COLUMNS, OBSTACLE_ROWS, Observation
+from .plant import BASE_RADIUS, Plant, PlantState, Rates
 from .plants import PLANTS
 from .reward import Reward
+from .seats import SEATS
 from .sensor import ForceSensor, Reading
 from .sensor_parameters import SensorParameters
-from .world import SEATS, Clearance, Corridor, World
+from .world import Corridor, World
 
 STRAIGHT_CORRIDOR = World(path=Path(((0.0, 0.0), (20.0, 0.0))), corridor=Corridor(width=3.0))
 """The world of `parallel_env` without arguments: nothing in it, nothing to negotiate."""
@@ -110,7 +112,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
                 "force": _box(rates.samples, 2),
                 "force_valid": _box(rates.samples),
                 "pose": _box(3),
-                "obstacles": _box(OBSTACLE_ROWS, 4),
+                "obstacles": _box(OBSTACLE_ROWS, OBSTACLE_COLUMNS),
                 "time": _box(1),
             }
         )
@@ -119,9 +121,9 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
             seat: tuple(zip(box.low.tolist(), box.high.tolist(), strict=True))
             for seat, box in self.action_spaces.items()
         }
-        self._clearance = Clearance(world, (BASE_RADIUS, HUMAN_RADIUS))
+        self._distances = self._plant.distances(world)
         self._reward = Reward(pace, rates.period)
-        self._eyes = {seat: Eyes(world, seat) for seat in SEATS}
+        self._eyes = {seat: Eyes(world, seat, BASE_RADIUS) for seat in SEATS}
         self._sensor = ForceSensor(sensor, rates.sensor)
         self._felt = np.ones(rates.samples)
         self._generator = np.random.default_rng()
@@ -160,7 +162,8 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self._sensor.reset(sensor_rng)
         self._state = self._plant.reset(self.world, plant_rng)
         self._reading = self._sensor.measure(self._state.force_on_base)
-        clearance, _ = self._clearance(self._state.pose, self._state.human_pose)
+        state = self._state
+        clearance, _ = self._distances(state.time, state.pose, state.human_pose)
         self._info = {"clearance": clearance, "goal": False, "collision": False}
         return self._observations(), {seat: dict(self._info) for seat in SEATS}
 
@@ -190,11 +193,10 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         state = self._state = self._plant.step(twist, force)
         self._step_count += 1
         self._reading = self._sensor.measure(state.force_on_base)
-        clearance, solid_clearance = self._clearance(state.pose, state.human_pose)
+        clearance, collision = self._distances(state.time, state.pose, state.human_pose)
         observations = self._observations()
         station = self._relative[0]
         goal = station >= self.world.path.length
-        collision = solid_clearance < 0.0
         self._info = {"clearance": clearance, "goal": goal, "collision": collision}
         rewards = self._reward(state, self._relative, clearance, collision, goal)
         over = goal or collision
@@ -263,7 +265,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
                 force=force[seat].copy(),
                 force_valid=valid[seat].astype(float),
                 pose=np.array(self._relative),
-                obstacles=self._eyes[seat].look(state.pose),
+                obstacles=self._eyes[seat].look(state.pose, state.human_pose, state.time),
                 time=time.copy(),
             )
             for seat in SEATS

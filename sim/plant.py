@@ -11,6 +11,7 @@ from typing import Protocol
 
 import numpy as np
 
+from .clearance import Distances
 from .errors import InputError
 from .motion import Array
 from .world import World
@@ -82,12 +83,15 @@ class PlantState:
     force_on_base : ndarray, shape (samples, 2)
         Force of the human on the base in base axes, N, at every sensor instant of the step,
         oldest first, before the sensor model. A fresh array each step.
+    time : float
+        Since reset, s.
     """
 
     pose: tuple[float, float, float]
     twist: tuple[float, float]
     human_pose: tuple[float, float, float]
     force_on_base: Array
+    time: float = 0.0
 
 
 class Plant(Protocol):
@@ -114,6 +118,10 @@ class Plant(Protocol):
         SimulationError
             If the state is not finite any more, or a body moves faster than is plausible.
         """
+        ...
+
+    def distances(self, world: World) -> Distances:
+        """Return what measures how far base and human are from everything in a world."""
         ...
 
     def render(self, width: int, height: int) -> np.ndarray:

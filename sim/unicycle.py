@@ -6,8 +6,9 @@ import math
 
 import numpy as np
 
+from .clearance import Clearance
 from .errors import SimulationError
-from .plant import HUMAN_PLACE, PlantState, Rates
+from .plant import BASE_RADIUS, HUMAN_PLACE, HUMAN_RADIUS, PlantState, Rates
 from .world import World
 
 
@@ -29,11 +30,13 @@ class UnicyclePlant:
         self._twist = (0.0, 0.0)
         self._hand_force = (0.0, 0.0)
         self._world: World | None = None
+        self._steps = 0
 
     def reset(self, world: World, rng: np.random.Generator) -> PlantState:
         """See `Plant.reset`."""
         self._world = world
         self._pose = world.start
+        self._steps = 0
         self._twist = self._hand_force = (0.0, 0.0)
         return self._state()
 
@@ -51,6 +54,7 @@ class UnicyclePlant:
             theta + 2.0 * half,
         )
         self._twist = (v, omega)
+        self._steps += 1
         self._hand_force = hand_force
         if not math.isfinite(sum(self._pose)):
             raise SimulationError(f"the base's pose is {self._pose}: not finite")
@@ -71,7 +75,12 @@ class UnicyclePlant:
                 theta + place_theta,
             ),
             force_on_base=force,
+            time=self._steps * self._period,
         )
+
+    def distances(self, world: World) -> Clearance:
+        """See `Plant.distances`: in closed form."""
+        return Clearance(world, (BASE_RADIUS, HUMAN_RADIUS))
 
     def render(self, width: int, height: int) -> np.ndarray:
         """See `Plant.render`: a drawing from above."""

@@ -1,0 +1,120 @@
+"""Rectangles on the floor plan: what walls and furniture occupy."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from .world import Corridor, Furniture, SideCorridor, Wall, World
+
+WALL_THICKNESS = 0.1
+"""Of a corridor's walls, m; they stand outside its clear width."""
+REACH = 50.0
+"""How far a corridor's walls go on beyond everything that is given a place, m."""
+
+
+class Rectangle(NamedTuple):
+    """A rectangle in the world plane.
+
+    Attributes
+    ----------
+    x, y : float
+        Centre, m.
+    half_length, half_width : float
+        Half of its sides, m.
+    yaw : float
+        Direction of the length, rad.
+    """
+
+    x: float
+    y: float
+    half_length: float
+    half_width: float
+    yaw: float = 0.0
+
+
+def walls(world: World, reach: float = REACH) -> tuple[Rectangle, ...]:
+    """Return the walls of a world.
+
+    Parameters
+    ----------
+    world : World
+    reach : float
+        How far a corridor's walls go on beyond path, start and openings, m.
+    """
+    found = [_wall(wall) for wall in world.walls]
+    corridor = world.corridor
+    if corridor is not None:
+        places = [point[0] for point in world.path.points]
+        places.append(world.start[0])
+        places += [door.x for door in corridor.doorways]
+        places += [side.x for side in corridor.side_corridors]
+        left, right = min(places) - reach, max(places) + reach
+        found += _side_walls(corridor, left, right)
+        for door in corridor.doorways:
+            found += cross_wall(corridor, door.x, door.y, door.width)
+    return tuple(found)
+
+
+def furniture(item: Furniture) -> Rectangle:
+    """Return what a piece of furniture occupies."""
+    return Rectangle(item.x, item.y, item.length / 2.0, item.width / 2.0, item.yaw)
+
+
+def cross_wall(corridor: Corridor, x: float, y: float, width: float) -> list[Rectangle]:
+    """Return the pieces of a wall across a corridor beside an opening around y, right one first."""
+    half = corridor.width / 2.0
+    pieces = ((-half, y - width / 2.0), (y + width / 2.0, half))
+    return [
+        Rectangle(x, (low + high) / 2.0, WALL_THICKNESS / 2.0, (high - low) / 2.0)
+        for low, high in pieces
+        if high > low
+    ]
+
+
+def _wall(wall: Wall) -> Rectangle:
+    (x, y), (to_x, to_y) = wall.start, wall.end
+    return Rectangle(
+        (x + to_x) / 2.0,
+        (y + to_y) / 2.0,
+        math.hypot(to_x - x, to_y - y) / 2.0,
+        wall.thickness / 2.0,
+        math.atan2(to_y - y, to_x - x),
+    )
+
+
+def _side_walls(corridor: Corridor, left: float, right: float) -> list[Rectangle]:
+    half, thick = corridor.width / 2.0, WALL_THICKNESS / 2.0
+    found = []
+    for side, sign in (("left", 1.0), ("right", -1.0)):
+        openings = sorted(
+            (branch for branch in corridor.side_corridors if branch.side == side),
+            key=lambda branch: branch.x,
+        )
+        begin = left
+        for branch in openings:
+            end = branch.x - branch.width / 2.0
+            found.append(_along_x(begin, end, sign * (half + thick)))
+            begin = branch.x + branch.width / 2.0
+            found += _branch(branch, sign, half)
+        found.append(_along_x(begin, right, sign * (half + thick)))
+    return found
+
+
+def _along_x(begin: float, end: float, y: float) -> Rectangle:
+    return Rectangle((begin + end) / 2.0, y, (end - begin) / 2.0, WALL_THICKNESS / 2.0)
+
+
+def _branch(branch: SideCorridor, sign: float, half: float) -> list[Rectangle]:
+    """Return the two walls and the end of a side corridor."""
+    thick = WALL_THICKNESS / 2.0
+    # Its walls begin where the corridor's end, so that no two stand in one place.
+    begin, end = half + 2.0 * thick, half + branch.length
+    out = branch.width / 2.0 + thick
+    found = [_along_x(branch.x - out - thick, branch.x + out + thick, sign * (end + thick))]
+    if end > begin:
+        found += [
+            Rectangle(branch.x + at, sign * (begin + end) / 2.0, thick, (end - begin) / 2.0)
+            for at in (-out, out)
+        ]
+    return found
