@@ -226,7 +226,8 @@ class BulletPlant:
             if self._viewer is not None:
                 self._viewer.close()
             self._viewer = Viewer(self._world, self._gui)
-        self._viewer.show(self._base_state[:3], self._human_state[:5])
+        now = self._steps * self._rates.period
+        self._viewer.show(self._base_state[:3], self._human_state[:5], now)
         return self._viewer
 
     def _watch(self) -> None:

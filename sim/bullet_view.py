@@ -13,16 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .bullet_engine import connect, disconnect, engine, load
+from .bullet_scenery import Scenery
 from .world import World
 
-WALL_HEIGHT, WALL_THICKNESS = 0.25, 0.10
-SOLID_HEIGHT = 0.8
-TILE = 1.0
-"""Side of the floor's tiles, m: without them one cannot see that the pair moves."""
-MARGIN = 6.0
-"""How far floor and walls reach beyond path and start, m."""
-FLOOR, FLOOR_DARK = (0.80, 0.78, 0.74, 1.0), (0.74, 0.72, 0.68, 1.0)
-WALL, PUDDLE, SOLID = (0.55, 0.57, 0.60, 1.0), (0.20, 0.50, 0.90, 1.0), (0.55, 0.42, 0.28, 1.0)
 CAMERA_DISTANCE, CAMERA_PITCH, CAMERA_SIDE = 3.3, -24.0, 32.0
 """Chase camera: m, degrees, and degrees to the left of straight behind the base."""
 
@@ -55,7 +48,7 @@ class Viewer:
                 engine.COV_ENABLE_RENDERING, 0, physicsClientId=self._client
             )
         self._bodies = [self._load("base.urdf"), self._load("human.urdf")]
-        self._build(world)
+        self._scenery = Scenery(self._client, world)
         if gui:
             engine.configureDebugVisualizer(
                 engine.COV_ENABLE_RENDERING, 1, physicsClientId=self._client
@@ -70,67 +63,7 @@ class Viewer:
         ]
         return body, moving
 
-    def _build(self, world: World) -> None:
-        points = np.array([*world.path.points, world.start[:2]])
-        left, bottom = points.min(axis=0) - MARGIN
-        right, top = points.max(axis=0) + MARGIN
-        if world.corridor:
-            half = world.corridor.width / 2.0
-            bottom, top = -half, half
-            for side in (-1.0, 1.0):
-                self._box(
-                    ((left + right) / 2.0, side * (half + WALL_THICKNESS / 2.0), WALL_HEIGHT / 2.0),
-                    (right - left, WALL_THICKNESS, WALL_HEIGHT),
-                    WALL,
-                )
-        for row in range(math.ceil((top - bottom) / TILE)):
-            for column in range(math.ceil((right - left) / TILE)):
-                depth = min(TILE, top - bottom - row * TILE)
-                self._box(
-                    (
-                        left + (column + 0.5) * TILE,
-                        bottom + row * TILE + depth / 2.0,
-                        -0.01,
-                    ),
-                    (TILE, depth, 0.02),
-                    FLOOR_DARK if (row + column) % 2 else FLOOR,
-                )
-        for thing in world.obstacles:
-            height = SOLID_HEIGHT if thing.solid else 0.004
-            self._show(
-                engine.createVisualShape(
-                    engine.GEOM_CYLINDER,
-                    radius=thing.radius,
-                    length=height,
-                    rgbaColor=SOLID if thing.solid else PUDDLE,
-                    physicsClientId=self._client,
-                ),
-                (thing.x, thing.y, height / 2.0),
-            )
-
-    def _box(
-        self,
-        centre: tuple[float, float, float],
-        size: tuple[float, float, float],
-        colour: tuple[float, float, float, float],
-    ) -> None:
-        shape = engine.createVisualShape(
-            engine.GEOM_BOX,
-            halfExtents=[side / 2.0 for side in size],
-            rgbaColor=colour,
-            physicsClientId=self._client,
-        )
-        self._show(shape, centre)
-
-    def _show(self, shape: int, centre: tuple[float, float, float]) -> None:
-        engine.createMultiBody(
-            baseMass=0.0,
-            baseVisualShapeIndex=shape,
-            basePosition=centre,
-            physicsClientId=self._client,
-        )
-
-    def show(self, base: tuple[float, ...], human: tuple[float, ...]) -> None:
+    def show(self, base: tuple[float, ...], human: tuple[float, ...], now: float) -> None:
         """Pose the bodies and let the camera follow.
 
         Parameters
@@ -139,7 +72,10 @@ class Viewer:
             Joint positions, world axes, m and rad.
         human : (x, y, yaw, shoulder, elbow)
             Joint positions, m and rad.
+        now : float
+            Since reset, s.
         """
+        self._scenery.show(now)
         for (body, moving), angles in zip(self._bodies, (base, human), strict=True):
             for joint, angle in zip(moving, angles, strict=True):
                 engine.resetJointState(body, joint, angle, 0.0, self._client)

@@ -163,7 +163,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self._state = self._plant.reset(self.world, plant_rng)
         self._reading = self._sensor.measure(self._state.force_on_base)
         state = self._state
-        clearance, _ = self._distances(state.time, state.pose, state.human_pose)
+        clearance, _ = self._distances(self._time, state.pose, state.human_pose)
         self._info = {"clearance": clearance, "goal": False, "collision": False}
         return self._observations(), {seat: dict(self._info) for seat in SEATS}
 
@@ -193,7 +193,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         state = self._state = self._plant.step(twist, force)
         self._step_count += 1
         self._reading = self._sensor.measure(state.force_on_base)
-        clearance, collision = self._distances(state.time, state.pose, state.human_pose)
+        clearance, collision = self._distances(self._time, state.pose, state.human_pose)
         observations = self._observations()
         station = self._relative[0]
         goal = station >= self.world.path.length
@@ -237,6 +237,11 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         """Free the plant. May be called twice."""
         self._plant.close()
 
+    @property
+    def _time(self) -> float:
+        """Since reset, s."""
+        return self._step_count / self.rates.control
+
     def _bounded(self, seat: str, action: Array) -> tuple[float, float]:
         if len(action) != 2:
             raise SimulationError(
@@ -256,7 +261,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
     def _observations(self) -> dict[str, Observation]:
         state = self._state
         self._relative = self.world.path.relative(*state.pose)
-        twist, time = np.array(state.twist), np.array([self._step_count / self.rates.control])
+        twist, time = np.array(state.twist), np.array([self._time])
         force = {"human": state.force_on_base, "automation": self._reading.force}
         valid = {"human": self._felt, "automation": self._reading.valid}
         return {
@@ -265,7 +270,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
                 force=force[seat].copy(),
                 force_valid=valid[seat].astype(float),
                 pose=np.array(self._relative),
-                obstacles=self._eyes[seat].look(state.pose, state.human_pose, state.time),
+                obstacles=self._eyes[seat].look(state.pose, state.human_pose, self._time),
                 time=time.copy(),
             )
             for seat in SEATS

@@ -5,6 +5,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import numpy as np
+
+from .motion import Array
 from .world import Corridor, Furniture, SideCorridor, Wall, World
 
 WALL_THICKNESS = 0.1
@@ -31,6 +34,14 @@ class Rectangle(NamedTuple):
     half_length: float
     half_width: float
     yaw: float = 0.0
+
+
+def corners(box: Rectangle) -> Array:
+    """Return the corners of a rectangle, counter-clockwise, shape (4, 2), m."""
+    signs = np.array([[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]])
+    cos, sin = math.cos(box.yaw), math.sin(box.yaw)
+    turn = np.array([[cos, sin], [-sin, cos]])
+    return np.asarray(signs * (box.half_length, box.half_width) @ turn + (box.x, box.y))
 
 
 def walls(world: World, reach: float = REACH) -> tuple[Rectangle, ...]:

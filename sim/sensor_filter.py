@@ -62,7 +62,7 @@ class LowPass:
     def __init__(self, frequency: float, sample_rate: float, channels: int) -> None:
         self.b, self.a = signal.butter(ORDER, frequency, fs=sample_rate)
         self._channels = channels
-        self._blocks: dict[int, tuple[Array, Array, Array, Array]] = {}
+        self._blocks: dict[int, tuple[Array, Array]] = {}
         self.reset()
 
     @classmethod
@@ -82,11 +82,10 @@ class LowPass:
             return np.concatenate([self(samples[i : i + LONGEST_BLOCK]) for i in parts])
         found = self._blocks.get(n)
         if found is None:
-            rows = np.empty((ORDER + n, self._channels))
-            found = self._blocks[n] = self._block(n), rows, rows[:ORDER], rows[ORDER:]
-        block, rows, state, inputs = found
-        state[:] = self._state
-        inputs[:] = samples
+            found = self._blocks[n] = self._block(n), np.empty((ORDER + n, self._channels))
+        block, rows = found
+        rows[:ORDER] = self._state
+        rows[ORDER:] = samples
         both: Array = block.dot(rows)
         self._state = both[n:]
         return both[:n]

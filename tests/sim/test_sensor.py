@@ -1,6 +1,7 @@
 """The force sensor: exact when off, and each fault as large as it says."""
 
 import math
+from copy import deepcopy
 
 import numpy as np
 import pytest
@@ -175,6 +176,14 @@ def test_seeded_whatever_the_blocks():
     assert not np.array_equal(first[0], blocks(one, FORCE[:2400])[0])
     one.reset(np.random.default_rng(3))
     for mine, theirs in zip(first, blocks(one, FORCE[:2400]), strict=True):
+        np.testing.assert_array_equal(mine, theirs)
+
+
+def test_a_copy_goes_on_as_the_original():
+    one = sensor(noise_density=0.1, low_pass=30.0, latency=0.02, drop_rate=0.1, rate=100.0)
+    blocks(one, FORCE[:240])
+    two = deepcopy(one)
+    for mine, theirs in zip(blocks(one, FORCE[:240]), blocks(two, FORCE[:240]), strict=True):
         np.testing.assert_array_equal(mine, theirs)
 
 
