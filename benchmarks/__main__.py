@@ -5,9 +5,13 @@ from __future__ import annotations
 from rich.console import Console
 from rich.table import Table
 
-from . import closed_loop
+from . import closed_loop, sensing, surroundings
 
-SUBJECTS = {"closed loop": closed_loop.measure}
+SUBJECTS = {
+    "closed loop": closed_loop.measure,
+    "force sensor": sensing.measure,
+    "distances and sight": surroundings.measure,
+}
 
 
 def main() -> None:

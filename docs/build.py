@@ -6,7 +6,10 @@ import re
 import subprocess
 import sys
 import tempfile
+from dataclasses import asdict
 from pathlib import Path
+
+from cowalk.sim.sensor_parameters import PRESETS
 
 DOCS = Path(__file__).parent
 ROOT = DOCS.parent
@@ -35,6 +38,17 @@ def fenced(text: str, language: str = "text") -> str:
     return f"```{language}\n{text}\n```"
 
 
+def preset_table() -> str:
+    """Return the sensor presets as a table, a column each."""
+    columns = {name: asdict(parameters) for name, (_, parameters) in PRESETS.items()}
+    lines = ["| key | " + " | ".join(columns) + " |", "|---" * (len(columns) + 1) + "|"]
+    lines += [
+        f"| `{key}` | " + " | ".join(str(column[key]) for column in columns.values()) + " |"
+        for key in next(iter(columns.values()))
+    ]
+    return "\n".join(lines)
+
+
 def main() -> None:
     """Rerun and quote everything."""
     images = DOCS / "images"
@@ -46,8 +60,10 @@ def main() -> None:
         output("paper", "--out", folder)
         (images / "paper.png").write_bytes(Path(folder, "panels.png").read_bytes())
     quote(DOCS / "model.md", "paper", fenced(output("paper")))
-    puddle = (ROOT / "scenarios" / "library" / "puddle.scenario.yaml").read_text().rstrip()
-    quote(DOCS / "scenarios.md", "puddle", fenced(puddle, "yaml"))
+    for file, name in (("scenarios.md", "puddle"), ("world.md", "doorway")):
+        text = (ROOT / "scenarios" / "library" / f"{name}.scenario.yaml").read_text().rstrip()
+        quote(DOCS / file, name, fenced(text, "yaml"))
+    quote(DOCS / "sensor.md", "presets", preset_table())
 
 
 if __name__ == "__main__":

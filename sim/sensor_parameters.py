@@ -129,13 +129,13 @@ PRESETS: dict[str, tuple[str, SensorParameters]] = {
     "low-cost": (
         "bar load cells of 20 kg on HX711 converters",
         SensorParameters(
-            # 80 conversions a second, settled after four of them (Avia HX711 data sheet): an
-            # average over 50 ms, -3 dB near 20 Hz, its lag shared by low-pass and latency.
+            # 80 conversions a second with 90 nV of noise (SparkFun, OpenScale hookup guide, after
+            # Avia's HX711 data sheet).
             rate=80.0,
-            low_pass=20.0,
-            latency=0.0125,
-            # The chip's own 90 nV (same sheet; 5 mV at 196 N) is 0.0007 N/sqrt(Hz); supply,
-            # wiring and cell raise it, typically by ten.
+            low_pass=20.0,  # typical: the chip averages over a few conversions
+            latency=0.0125,  # typical: one conversion
+            # 90 nV is 0.0007 N/sqrt(Hz) where 196 N give 5 mV; supply, wiring and cell raise it,
+            # typically by ten.
             noise_density=0.007,
             range=196.0,  # 20 kg
             resolution=0.02,  # typical: 2 g
