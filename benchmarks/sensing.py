@@ -54,5 +54,5 @@ def measure() -> list[tuple[str, float, str]]:
     rows = [("bare engine steps, a control step", wall["bare"] / CALLS * 1e6, "us")]
     for name in sensors:
         rows.append((f"sensor {name}", wall[name] / CALLS * 1e6, "us"))
-        rows.append((f"sensor {name}, share of bare engine steps", wall[name] / wall["bare"], "1"))
+        rows.append((f"sensor {name}, ratio to bare steps", wall[name] / wall["bare"], "1"))
     return rows

@@ -107,8 +107,6 @@ def measure() -> list[tuple[str, float, str]]:
         unit = wall.pop("bare engine steps")
         for name, seconds in wall.items():
             rows.append((f"{count} things: {name}", seconds / STEPS * 1e6, "us"))
-            rows.append(
-                (f"{count} things: {name}, share of bare engine steps", seconds / unit, "1")
-            )
+            rows.append((f"{count} things: {name}, ratio to bare steps", seconds / unit, "1"))
     env.close()
     return rows

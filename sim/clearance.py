@@ -35,8 +35,7 @@ class Clearance:
     """Signed distance from discs to discs and rectangles, set up once and then cheap.
 
     Plain floats, and nothing is measured exactly that is farther away than what was found
-    already: below some fifty things this beats array operations and geometry libraries
-    (``python -m benchmarks``).
+    already: up to some twenty things this beats array operations (``python -m benchmarks``).
 
     Parameters
     ----------

@@ -6,14 +6,19 @@ import math
 
 import numpy as np
 
-from .footprint import WALL_THICKNESS, Rectangle, cross_wall, furniture, walls
-from .motion import Array, world_to_base
+from .footprint import Rectangle, furniture, outer_walls, wall_ends, walls
+from .motion import Array
 from .observation import OBSTACLE_COLUMNS, OBSTACLE_ROWS
-from .sight import Mask, hidden_by_discs, hidden_by_rectangles, outline
+from .sight import Pillar, Point, Screen, behind_pillar, behind_screen
 from .world import World
 
 NOTHING = -1
-"""Number of the occluder that a thing is, for things that hide nothing."""
+"""Number of the occluder that a thing is which hides nothing."""
+
+Pose = tuple[float, float, float]
+Disc = tuple[float, float, float]
+Thing = tuple[float, float, float, int, float, float]
+"""``(x, y, radius, number of the occluder that it is, vx, vy)``, m and m/s."""
 
 
 class Eyes:
@@ -33,61 +38,52 @@ class Eyes:
     """
 
     def __init__(self, world: World, seat: str, front: float = 0.0) -> None:
-        self._human = seat == "human"
-        self._front = front
-        self._range = getattr(world.view_range, seat)
-        boxes = [*walls(world), *map(furniture, world.furniture)]
-        pillars = [(o.x, o.y, o.radius) for o in world.obstacles if o.solid]
-        things: list[tuple[float, float, float]] = []
-        own: list[tuple[int, int]] = []  # which rectangle and which disc a thing itself is
+        self._human, self._front = seat == "human", front
+        self._range: float = getattr(world.view_range, seat)
+        self._things: list[Thing] = []
+        self._pillars: list[Pillar] = []
+        numbers: dict[Rectangle, int] = {}
+        for box in (*walls(world), *map(furniture, world.furniture)):
+            numbers.setdefault(box, len(numbers))
+        screens = {
+            box: Screen(
+                number,
+                box.x,
+                box.y,
+                math.cos(box.yaw),
+                math.sin(box.yaw),
+                box.half_length,
+                box.half_width,
+            )
+            for box, number in numbers.items()
+        }
+        # Between two places in a straight corridor nothing of its own walls can stand.
+        self._half_width = world.corridor.width / 2.0 if world.corridor else 0.0
+        outer = set(outer_walls(world))
+        self._screens = list(screens.values())
+        self._inner = [screen for box, screen in screens.items() if box not in outer]
+        count = len(numbers)
         for obstacle in world.obstacles:
-            disc = (obstacle.x, obstacle.y, obstacle.radius)
+            place = (obstacle.x, obstacle.y, obstacle.radius)
+            if obstacle.solid:
+                self._pillars.append(Pillar(count + len(self._pillars), *place))
             if seat in obstacle.seen_by:
-                things.append(disc)
-                own.append((NOTHING, pillars.index(disc) if obstacle.solid else NOTHING))
+                self._add([place], self._pillars[-1].number if obstacle.solid else NOTHING)
         for item in world.furniture:
             if seat in item.seen_by:
-                box = furniture(item)
-                covers = covering_discs(box)
-                things += covers
-                own += [(boxes.index(box), NOTHING)] * len(covers)
-        for box, disc in wall_ends(world):
-            things.append(disc)
-            own.append((boxes.index(box), NOTHING))
-        walkers = world.pedestrians
-        self._walking_discs = len(pillars)
-        self._walkers = walkers
-        self._seen_walkers = [n for n, walker in enumerate(walkers) if seat in walker.seen_by]
-        for number in self._seen_walkers:
-            walker = walkers[number]
-            things.append((*walker.waypoints[0], walker.radius))
-            own.append((NOTHING, len(pillars) + number))
-        self._things = np.array(things, dtype=float).reshape(-1, 3)
-        self._velocity = np.zeros((len(things), 2))
-        self._moving = len(things) - len(self._seen_walkers)
-        own_rectangle, own_disc = np.array(own, dtype=int).reshape(-1, 2).T
-        self._discs = np.array(
-            [*pillars, *((*w.waypoints[0], w.radius) for w in walkers)], dtype=float
-        ).reshape(-1, 3)
-        if _all_inside(world, things):
-            boxes = boxes[len(walls(world)) :]
-            own_rectangle = own_rectangle - len(walls(world))
-        self._rectangles = np.array(
-            [
-                (b.x, b.y, math.cos(b.yaw), math.sin(b.yaw), b.half_length, b.half_width)
-                for b in boxes
-            ]
-        ).reshape(-1, 6)
-        self._not_itself_rectangle = own_rectangle[:, None] != np.arange(len(self._rectangles))
-        self._not_itself_disc = own_disc[:, None] != np.arange(len(self._discs))
-        self._hiding = bool(len(self._rectangles) or len(self._discs))
+                self._add(covering_discs(furniture(item)), numbers[furniture(item)])
+        for box, place in wall_ends(world):
+            self._add([place], numbers[box])
+        count += len(self._pillars)
+        self._walkers = [
+            (walker, count + number, seat in walker.seen_by)
+            for number, walker in enumerate(world.pedestrians)
+        ]
 
-    def look(
-        self,
-        base_pose: tuple[float, float, float],
-        human_pose: tuple[float, float, float],
-        time: float,
-    ) -> Array:
+    def _add(self, discs: list[Disc], number: int) -> None:
+        self._things += [(*disc, number, 0.0, 0.0) for disc in discs]
+
+    def look(self, base_pose: Pose, human_pose: Pose, time: float) -> Array:
         """Return the ``obstacles`` of an `Observation`, shape (8, 6).
 
         Parameters
@@ -98,67 +94,68 @@ class Eyes:
             Since reset, s.
         """
         rows = np.zeros((OBSTACLE_ROWS, OBSTACLE_COLUMNS))
-        things, velocity = self._things, self._velocity
-        if not len(things):
-            return rows
+        things, pillars = self._things, self._pillars
         if self._walkers:
-            self._walk(time)
-        centres = world_to_base(np.array(base_pose), things[:, :2])
-        gap = np.hypot(centres[:, 0], centres[:, 1]) - things[:, 2]
-        order = np.argsort(gap, kind="stable")
-        if self._hiding or self._range < math.inf:
-            order = order[self._visible(base_pose, human_pose)[order]]
-        order = order[:OBSTACLE_ROWS]
-        n = len(order)
-        rows[:n, 0] = 1.0
-        rows[:n, 1:3] = centres[order]
-        rows[:n, 3] = things[order, 2]
-        if self._seen_walkers:
-            turned = world_to_base(np.array((0.0, 0.0, base_pose[2])), velocity[order])
-            rows[:n, 4:6] = turned
+            things, pillars = self._with_walkers(time)
+        if not things:
+            return rows
+        x, y, theta = base_pose
+        cos, sin = math.cos(theta), math.sin(theta)
+        eye = (x + self._front * cos, y + self._front * sin)
+        if self._human:
+            eye = (human_pose[0], human_pose[1])
+        near = [(math.hypot(t[0] - x, t[1] - y) - t[2], n) for n, t in enumerate(things)]
+        near.sort()
+        found = []
+        for _, n in near:
+            thing = things[n]
+            if self._sees(eye, thing, pillars):
+                dx, dy, vx, vy = thing[0] - x, thing[1] - y, thing[4], thing[5]
+                place = (cos * dx + sin * dy, cos * dy - sin * dx, thing[2])
+                found.append((1.0, *place, cos * vx + sin * vy, cos * vy - sin * vx))
+                if len(found) == OBSTACLE_ROWS:
+                    break
+        if found:
+            rows[: len(found)] = found
         return rows
 
-    def _walk(self, time: float) -> None:
-        states = np.array([walker.state(time) for walker in self._walkers])
-        self._discs[self._walking_discs :, :2] = states[:, :2]
-        if self._seen_walkers:
-            seen = states[self._seen_walkers]
-            self._things[self._moving :, :2] = seen[:, :2]
-            self._velocity[self._moving :] = seen[:, 2:]
+    def _with_walkers(self, time: float) -> tuple[list[Thing], list[Pillar]]:
+        things, pillars = self._things.copy(), self._pillars.copy()
+        for walker, number, seen in self._walkers:
+            x, y, vx, vy = walker.state(time)
+            pillars.append(Pillar(number, x, y, walker.radius))
+            if seen:
+                things.append((x, y, walker.radius, number, vx, vy))
+        return things, pillars
 
-    def _visible(
-        self, base_pose: tuple[float, float, float], human_pose: tuple[float, float, float]
-    ) -> Mask:
-        if self._human:
-            eye = np.array(human_pose[:2])
-        else:
-            x, y, theta = base_pose
-            eye = np.array((x + self._front * math.cos(theta), y + self._front * math.sin(theta)))
-        things = self._things
-        visible = np.ones(len(things), dtype=bool)
-        if self._range < math.inf:
-            away = things[:, :2] - eye
-            visible = np.hypot(away[:, 0], away[:, 1]) - things[:, 2] <= self._range
-        if self._hiding:
-            hidden = self._hidden(eye, things[:, :2])
-            if hidden.any():
-                for side in outline(eye, things):
-                    hidden &= self._hidden(eye, side)
-            visible &= ~hidden
-        return visible
-
-    def _hidden(self, eye: Array, points: Array) -> Mask:
-        hidden = np.zeros(len(points), dtype=bool)
-        if len(self._rectangles):
-            through = hidden_by_rectangles(eye, points, self._rectangles)
-            hidden |= (through & self._not_itself_rectangle).any(axis=-1)
-        if len(self._discs):
-            through = hidden_by_discs(eye, points, self._discs)
-            hidden |= (through & self._not_itself_disc).any(axis=-1)
-        return hidden
+    def _sees(self, eye: Point, thing: Thing, pillars: list[Pillar]) -> bool:
+        x, y, radius, number, _, _ = thing
+        ray_x, ray_y = x - eye[0], y - eye[1]
+        away = math.hypot(ray_x, ray_y)
+        if away - radius > self._range:
+            return False
+        inside = abs(y) < self._half_width and abs(eye[1]) < self._half_width
+        screens = self._inner if inside else self._screens
+        if not (screens or pillars):
+            return True
+        if _open(eye, (x, y), screens, pillars, number):
+            return True
+        aside = radius / away if away > 0.0 else 0.0
+        side_x, side_y = -aside * ray_y, aside * ray_x
+        return _open(eye, (x + side_x, y + side_y), screens, pillars, number) or _open(
+            eye, (x - side_x, y - side_y), screens, pillars, number
+        )
 
 
-def covering_discs(box: Rectangle) -> list[tuple[float, float, float]]:
+def _open(
+    eye: Point, point: Point, screens: list[Screen], pillars: list[Pillar], itself: int
+) -> bool:
+    return not (
+        behind_pillar(eye, point, pillars, itself) or behind_screen(eye, point, screens, itself)
+    )
+
+
+def covering_discs(box: Rectangle) -> list[Disc]:
     """Return discs in a row, as few as there are squares in it, that cover a rectangle, m."""
     x, y, length, width, yaw = box
     if width > length:
@@ -168,27 +165,3 @@ def covering_discs(box: Rectangle) -> list[tuple[float, float, float]]:
     radius = math.hypot(half, width)
     places = [half * (2 * number + 1) - length for number in range(count)]
     return [(x + at * math.cos(yaw), y + at * math.sin(yaw), radius) for at in places]
-
-
-def wall_ends(world: World) -> list[tuple[Rectangle, tuple[float, float, float]]]:
-    """Return the posts of doorways and the ends of free walls: the wall they end, and a disc."""
-    found = []
-    thick = WALL_THICKNESS / 2.0
-    if world.corridor is not None:
-        for door in world.corridor.doorways:
-            for box in cross_wall(world.corridor, door.x, door.y, door.width):
-                side = math.copysign(door.width / 2.0 + thick, box.y - door.y)
-                found.append((box, (door.x, door.y + side, thick)))
-    for wall, box in zip(world.walls, walls(world), strict=False):
-        found += [(box, (*end, wall.thickness / 2.0)) for end in (wall.start, wall.end)]
-    return found
-
-
-def _all_inside(world: World, things: list[tuple[float, float, float]]) -> bool:
-    """Return whether walls can hide nothing: everything is in one straight corridor."""
-    corridor = world.corridor
-    if world.walls or corridor is None or corridor.doorways or corridor.side_corridors:
-        return False
-    places = [(x, y) for x, y, _ in things]
-    places += [point for walker in world.pedestrians for point in walker.waypoints]
-    return all(abs(y) < corridor.width / 2.0 for _, y in places)

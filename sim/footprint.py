@@ -54,17 +54,37 @@ def walls(world: World, reach: float = REACH) -> tuple[Rectangle, ...]:
         How far a corridor's walls go on beyond path, start and openings, m.
     """
     found = [_wall(wall) for wall in world.walls]
+    if world.corridor is not None:
+        for door in world.corridor.doorways:
+            found += cross_wall(world.corridor, door.x, door.y, door.width)
+    return (*found, *outer_walls(world, reach))
+
+
+def outer_walls(world: World, reach: float = REACH) -> tuple[Rectangle, ...]:
+    """Return those of the walls that bound the corridor and what branches off."""
     corridor = world.corridor
-    if corridor is not None:
-        places = [point[0] for point in world.path.points]
-        places.append(world.start[0])
-        places += [door.x for door in corridor.doorways]
-        places += [side.x for side in corridor.side_corridors]
-        left, right = min(places) - reach, max(places) + reach
-        found += _side_walls(corridor, left, right)
-        for door in corridor.doorways:
-            found += cross_wall(corridor, door.x, door.y, door.width)
-    return tuple(found)
+    if corridor is None:
+        return ()
+    places = [point[0] for point in world.path.points]
+    places.append(world.start[0])
+    places += [door.x for door in corridor.doorways]
+    places += [side.x for side in corridor.side_corridors]
+    return tuple(_side_walls(corridor, min(places) - reach, max(places) + reach))
+
+
+def wall_ends(world: World) -> list[tuple[Rectangle, tuple[float, float, float]]]:
+    """Return the posts of doorways and the ends of free walls: the wall, and a disc at its end."""
+    found = []
+    thick = WALL_THICKNESS / 2.0
+    for wall in world.walls:
+        box = _wall(wall)
+        found += [(box, (*end, wall.thickness / 2.0)) for end in (wall.start, wall.end)]
+    if world.corridor is not None:
+        for door in world.corridor.doorways:
+            for box in cross_wall(world.corridor, door.x, door.y, door.width):
+                side = math.copysign(door.width / 2.0 + thick, box.y - door.y)
+                found.append((box, (door.x, door.y + side, thick)))
+    return found
 
 
 def furniture(item: Furniture) -> Rectangle:

@@ -1,89 +1,107 @@
-"""Lines of sight on the floor plan: which points are hidden from an eye."""
+"""Lines of sight on the floor plan, in plain floats: it is asked for a few lines at a time."""
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
-from .motion import Array
-
-Mask = NDArray[np.bool_]
+from collections.abc import Iterable
+from typing import NamedTuple
 
 
-def hidden_by_rectangles(eye: Array, points: Array, rectangles: Array) -> Mask:
-    """Return which lines of sight pass through which rectangles.
+class Screen(NamedTuple):
+    """A rectangle that hides what is behind it.
 
-    By the separating axis test of a segment and a rectangle; a line along an edge
-    passes.
+    Attributes
+    ----------
+    number : int
+        Which occluder it is.
+    x, y : float
+        Centre, m.
+    cos, sin : float
+        Of the direction of its length.
+    half_length, half_width : float
+        Half of its sides, m.
+    """
+
+    number: int
+    x: float
+    y: float
+    cos: float
+    sin: float
+    half_length: float
+    half_width: float
+
+
+class Pillar(NamedTuple):
+    """A disc that hides what is behind it.
+
+    Attributes
+    ----------
+    number : int
+        Which occluder it is.
+    x, y, radius : float
+        m.
+    """
+
+    number: int
+    x: float
+    y: float
+    radius: float
+
+
+Point = tuple[float, float]
+
+
+def behind_screen(eye: Point, point: Point, screens: Iterable[Screen], itself: int = -1) -> bool:
+    """Return whether the line from an eye to a point passes through one of some rectangles.
+
+    The separating axis test of a segment and a rectangle; a line along an edge does not count.
 
     Parameters
     ----------
-    eye : ndarray, shape (2,)
+    eye, point : (x, y)
         m.
-    points : ndarray, shape (..., 2)
-        What is looked at, m.
-    rectangles : ndarray, shape (n, 6)
-        ``[x, y, cos(yaw), sin(yaw), half_length, half_width]``, m.
-
-    Returns
-    -------
-    ndarray of bool, shape (..., n)
+    screens : iterable of Screen
+    itself : int
+        Number of the occluder that does not count.
     """
-    x, y, cos, sin, half_length, half_width = rectangles.T
-    eye_x, eye_y = eye[0] - x, eye[1] - y
-    to_x, to_y = points[..., None, 0] - x, points[..., None, 1] - y
-    middle_x, middle_y = (eye_x + to_x) / 2.0, (eye_y + to_y) / 2.0
-    ray_x, ray_y = (to_x - eye_x) / 2.0, (to_y - eye_y) / 2.0
-    along, across = cos * middle_x + sin * middle_y, cos * middle_y - sin * middle_x
-    ray_along, ray_across = cos * ray_x + sin * ray_y, cos * ray_y - sin * ray_x
-    passes = np.abs(along) >= half_length + np.abs(ray_along)
-    passes |= np.abs(across) >= half_width + np.abs(ray_across)
-    passes |= np.abs(along * ray_across - across * ray_along) > (
-        half_length * np.abs(ray_across) + half_width * np.abs(ray_along)
-    )
-    return np.asarray(~passes)
+    middle_x, middle_y = (eye[0] + point[0]) / 2.0, (eye[1] + point[1]) / 2.0
+    ray_x, ray_y = middle_x - eye[0], middle_y - eye[1]
+    for number, x, y, cos, sin, half_length, half_width in screens:
+        if number == itself:
+            continue
+        dx, dy = middle_x - x, middle_y - y
+        along, ray_along = abs(cos * dx + sin * dy), cos * ray_x + sin * ray_y
+        if along >= half_length + abs(ray_along):
+            continue
+        across, ray_across = abs(cos * dy - sin * dx), cos * ray_y - sin * ray_x
+        if across >= half_width + abs(ray_across):
+            continue
+        turn = abs(dx * ray_y - dy * ray_x)
+        if turn <= half_length * abs(ray_across) + half_width * abs(ray_along):
+            return True
+    return False
 
 
-def hidden_by_discs(eye: Array, points: Array, discs: Array) -> Mask:
-    """Return which lines of sight pass through which discs.
+def behind_pillar(eye: Point, point: Point, pillars: Iterable[Pillar], itself: int = -1) -> bool:
+    """Return whether the line from an eye to a point passes through one of some discs.
 
     Parameters
     ----------
-    eye : ndarray, shape (2,)
+    eye, point : (x, y)
         m.
-    points : ndarray, shape (..., 2)
-        What is looked at, m.
-    discs : ndarray, shape (n, 3)
-        ``[x, y, radius]``, m.
-
-    Returns
-    -------
-    ndarray of bool, shape (..., n)
+    pillars : iterable of Pillar
+    itself : int
+        Number of the occluder that does not count.
     """
-    ray = (points - eye)[..., None, :]
-    centre = discs[:, :2] - eye
-    length = np.maximum((ray**2).sum(axis=-1), 1e-12)
-    share = np.clip((ray * centre).sum(axis=-1) / length, 0.0, 1.0)
-    miss = share[..., None] * ray - centre
-    return np.asarray((miss**2).sum(axis=-1) < discs[:, 2] ** 2)
-
-
-def outline(eye: Array, discs: Array) -> Array:
-    """Return the two points of each disc that stand out farthest from its line of sight.
-
-    Parameters
-    ----------
-    eye : ndarray, shape (2,)
-        m.
-    discs : ndarray, shape (n, 3)
-        ``[x, y, radius]``, m.
-
-    Returns
-    -------
-    ndarray, shape (2, n, 2)
-        The left and the right one, m.
-    """
-    ray = discs[:, :2] - eye
-    length = np.maximum(np.hypot(ray[:, 0], ray[:, 1]), 1e-9)
-    aside = np.stack((-ray[:, 1], ray[:, 0]), axis=-1) * (discs[:, 2] / length)[:, None]
-    return discs[:, :2] + np.stack((aside, -aside))
+    ray_x, ray_y = point[0] - eye[0], point[1] - eye[1]
+    square = ray_x * ray_x + ray_y * ray_y
+    for number, x, y, radius in pillars:
+        if number == itself:
+            continue
+        dx, dy = x - eye[0], y - eye[1]
+        share = dx * ray_x + dy * ray_y
+        if share > 0.0 and square > 0.0:
+            share = min(share / square, 1.0)
+            dx, dy = dx - share * ray_x, dy - share * ray_y
+        if dx * dx + dy * dy < radius * radius:
+            return True
+    return False

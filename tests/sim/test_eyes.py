@@ -11,7 +11,7 @@ from cowalk.sim.eyes import Eyes, covering_discs
 from cowalk.sim.footprint import Rectangle
 from cowalk.sim.motion import Path
 from cowalk.sim.observation import OBSTACLE_ROWS
-from cowalk.sim.sight import hidden_by_discs, hidden_by_rectangles
+from cowalk.sim.sight import Pillar, Screen, behind_pillar, behind_screen
 from cowalk.sim.world import (
     Corridor,
     Doorway,
@@ -158,13 +158,14 @@ points = st.tuples(st.floats(-5, 5), st.floats(-5, 5))
 def test_a_line_through_a_rectangle_is_one_with_a_point_inside(eye, point, length, width, yaw):
     eye, point = np.array(eye), np.array(point)
     cos, sin = math.cos(yaw), math.sin(yaw)
-    rectangles = np.array([[0.3, -0.2, cos, sin, length, width]])
+    screen = Screen(0, 0.3, -0.2, cos, sin, length, width)
     way = eye + np.linspace(0.0, 1.0, 2001)[:, None] * (point - eye) - (0.3, -0.2)
     along = np.abs(way @ (cos, sin)) - length
     across = np.abs(way @ (-sin, cos)) - width
     depth = np.maximum(along, across).min()
     if abs(depth) > 0.01:  # sampling decides nothing closer than that
-        assert hidden_by_rectangles(eye, point, rectangles)[0] == (depth < 0.0)
+        assert behind_screen(eye, point, [screen]) == (depth < 0.0)
+        assert not behind_screen(eye, point, [screen], itself=0)
 
 
 @given(points, points, st.floats(0.1, 2.0))
@@ -173,5 +174,6 @@ def test_a_line_through_a_disc_is_one_with_a_point_inside(eye, point, radius):
     way = eye + np.linspace(0.0, 1.0, 2001)[:, None] * (point - eye) - (0.3, -0.2)
     depth = np.hypot(*way.T).min() - radius
     if abs(depth) > 0.01:
-        discs = np.array([[0.3, -0.2, radius]])
-        assert hidden_by_discs(eye, point, discs)[0] == (depth < 0.0)
+        pillar = Pillar(0, 0.3, -0.2, radius)
+        assert behind_pillar(eye, point, [pillar]) == (depth < 0.0)
+        assert not behind_pillar(eye, point, [pillar], itself=0)
