@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from functools import cache
 
 import numpy as np
 
@@ -17,6 +18,8 @@ from cowalk.agents.interfaces import Situation
 from cowalk.sim.motion import Array, arc_displacement, compose, unit_arc, world_to_base
 
 from .settings import NegotiationSettings
+
+_NEIGHBOURS = np.array([-1, 0, 1])
 
 
 def minimise(cost: Callable[[Array], Array], low: Array, high: Array, points: int = 33) -> Array:
@@ -37,13 +40,13 @@ def minimise(cost: Callable[[Array], Array], low: Array, high: Array, points: in
     -------
     ndarray, shape (...)
     """
-    share = np.linspace(0.0, 1.0, points)
+    share = _grid(points)
     left, right = low[..., None], high[..., None]
     for _ in range(2):
         grid = left + (right - left) * share
         value = cost(grid)
-        best = np.clip(np.argmin(value, axis=-1), 1, points - 2)[..., None]
-        around = best + np.array([-1, 0, 1])
+        best = np.minimum(np.maximum(np.argmin(value, axis=-1), 1), points - 2)[..., None]
+        around = best + _NEIGHBOURS
         abscissa = np.take_along_axis(grid, around, axis=-1)
         left, right = abscissa[..., :1], abscissa[..., 2:]
     before, here, after = np.moveaxis(np.take_along_axis(value, around, axis=-1), -1, 0)
@@ -51,6 +54,11 @@ def minimise(cost: Callable[[Array], Array], low: Array, high: Array, points: in
     shift = np.where(bend > 0.0, 0.5 * (before - after) / np.where(bend > 0.0, bend, 1.0), 0.0)
     cell = abscissa[..., 1] - abscissa[..., 0]
     return np.asarray(abscissa[..., 1] + np.clip(shift, -1.0, 1.0) * cell)
+
+
+@cache
+def _grid(points: int) -> Array:
+    return np.linspace(0.0, 1.0, points)
 
 
 class Problem(ABC):
@@ -196,7 +204,8 @@ class TwistProblem(Problem):
 
         def solve(omega: Array) -> tuple[Array, Array]:
             a, b, c = (part.reshape(omega.shape) for part in self._parabola(flat(omega)))
-            v = np.clip((own * b + v_weight * v_human) / (own * a + v_weight), low, high)
+            free = (own * b + v_weight * v_human) / (own * a + v_weight)
+            v = np.minimum(np.maximum(free, low), high)  # np.clip takes three times as long
             away = v_weight * (v - v_human) ** 2 + omega_weight * (omega - omega_human) ** 2
             return v, own * ((a * v - 2.0 * b) * v + c) + away
 
