@@ -170,6 +170,19 @@ def test_running_into_something_solid_ends_the_episode(plant, thing):
     assert -0.1 < infos["human"]["clearance"] < 0.0
 
 
+def test_engine_worlds_are_given_back_and_used_again_empty():
+    world = World(PATH, obstacles=(Obstacle(3.0, 0.0, 0.5, "pillar"),))
+    clients = set()
+    for _ in range(30):
+        full, empty = EngineClearance(world, (0.3,)), EngineClearance(World(PATH), (0.3,))
+        assert full(0.0, (1.0, 0.0))[0] == pytest.approx(1.2, **NEAR)
+        assert empty(0.0, (1.0, 0.0))[0] == math.inf
+        clients |= {full._client, empty._client}
+        for clearance in (full, empty, full):
+            clearance.close()
+    assert len(clients) <= 4
+
+
 def test_a_bullet_plant_measures_by_the_engine_and_the_unicycle_in_closed_form():
     for plant, kind in (("bullet", EngineClearance), ("unicycle", Clearance)):
         env = parallel_env(plant=plant)
