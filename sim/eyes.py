@@ -138,21 +138,25 @@ class Eyes:
         screens = self._inner if inside else self._screens
         if not (screens or pillars):
             return True
-        if _open(eye, (x, y), screens, pillars, number):
+        hiding: Screen | Pillar | None = behind_pillar(eye, (x, y), pillars, number)
+        hiding = hiding or behind_screen(eye, (x, y), screens, number)
+        if hiding is None:
             return True
         aside = radius / away if away > 0.0 else 0.0
         side_x, side_y = -aside * ray_y, aside * ray_x
-        return _open(eye, (x + side_x, y + side_y), screens, pillars, number) or _open(
-            eye, (x - side_x, y - side_y), screens, pillars, number
+        # What hides the middle mostly hides the sides as well, so it is asked first.
+        return any(
+            not _hides(hiding, eye, point)
+            and not behind_pillar(eye, point, pillars, number)
+            and not behind_screen(eye, point, screens, number)
+            for point in ((x + side_x, y + side_y), (x - side_x, y - side_y))
         )
 
 
-def _open(
-    eye: Point, point: Point, screens: list[Screen], pillars: list[Pillar], itself: int
-) -> bool:
-    return not (
-        behind_pillar(eye, point, pillars, itself) or behind_screen(eye, point, screens, itself)
-    )
+def _hides(one: Screen | Pillar, eye: Point, point: Point) -> bool:
+    if isinstance(one, Screen):
+        return behind_screen(eye, point, (one,)) is not None
+    return behind_pillar(eye, point, (one,)) is not None
 
 
 def covering_discs(box: Rectangle) -> list[Disc]:

@@ -50,8 +50,10 @@ class Pillar(NamedTuple):
 Point = tuple[float, float]
 
 
-def behind_screen(eye: Point, point: Point, screens: Iterable[Screen], itself: int = -1) -> bool:
-    """Return whether the line from an eye to a point passes through one of some rectangles.
+def behind_screen(
+    eye: Point, point: Point, screens: Iterable[Screen], itself: int = -1
+) -> Screen | None:
+    """Return a rectangle that the line from an eye to a point passes through, if any.
 
     The separating axis test of a segment and a rectangle; a line along an edge does not count.
 
@@ -65,7 +67,8 @@ def behind_screen(eye: Point, point: Point, screens: Iterable[Screen], itself: i
     """
     middle_x, middle_y = (eye[0] + point[0]) / 2.0, (eye[1] + point[1]) / 2.0
     ray_x, ray_y = middle_x - eye[0], middle_y - eye[1]
-    for number, x, y, cos, sin, half_length, half_width in screens:
+    for screen in screens:
+        number, x, y, cos, sin, half_length, half_width = screen
         if number == itself:
             continue
         dx, dy = middle_x - x, middle_y - y
@@ -77,12 +80,14 @@ def behind_screen(eye: Point, point: Point, screens: Iterable[Screen], itself: i
             continue
         turn = abs(dx * ray_y - dy * ray_x)
         if turn <= half_length * abs(ray_across) + half_width * abs(ray_along):
-            return True
-    return False
+            return screen
+    return None
 
 
-def behind_pillar(eye: Point, point: Point, pillars: Iterable[Pillar], itself: int = -1) -> bool:
-    """Return whether the line from an eye to a point passes through one of some discs.
+def behind_pillar(
+    eye: Point, point: Point, pillars: Iterable[Pillar], itself: int = -1
+) -> Pillar | None:
+    """Return a disc that the line from an eye to a point passes through, if any.
 
     Parameters
     ----------
@@ -94,7 +99,8 @@ def behind_pillar(eye: Point, point: Point, pillars: Iterable[Pillar], itself: i
     """
     ray_x, ray_y = point[0] - eye[0], point[1] - eye[1]
     square = ray_x * ray_x + ray_y * ray_y
-    for number, x, y, radius in pillars:
+    for pillar in pillars:
+        number, x, y, radius = pillar
         if number == itself:
             continue
         dx, dy = x - eye[0], y - eye[1]
@@ -103,5 +109,5 @@ def behind_pillar(eye: Point, point: Point, pillars: Iterable[Pillar], itself: i
             share = min(share / square, 1.0)
             dx, dy = dx - share * ray_x, dy - share * ray_y
         if dx * dx + dy * dy < radius * radius:
-            return True
-    return False
+            return pillar
+    return None

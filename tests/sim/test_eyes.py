@@ -164,7 +164,7 @@ def test_a_line_through_a_rectangle_is_one_with_a_point_inside(eye, point, lengt
     across = np.abs(way @ (-sin, cos)) - width
     depth = np.maximum(along, across).min()
     if abs(depth) > 0.01:  # sampling decides nothing closer than that
-        assert behind_screen(eye, point, [screen]) == (depth < 0.0)
+        assert (behind_screen(eye, point, [screen]) is screen) == (depth < 0.0)
         assert not behind_screen(eye, point, [screen], itself=0)
 
 
@@ -175,5 +175,5 @@ def test_a_line_through_a_disc_is_one_with_a_point_inside(eye, point, radius):
     depth = np.hypot(*way.T).min() - radius
     if abs(depth) > 0.01:
         pillar = Pillar(0, 0.3, -0.2, radius)
-        assert behind_pillar(eye, point, [pillar]) == (depth < 0.0)
+        assert (behind_pillar(eye, point, [pillar]) is pillar) == (depth < 0.0)
         assert not behind_pillar(eye, point, [pillar], itself=0)
