@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
+from typing import TypeVar
 
 import numpy as np
 
@@ -15,6 +17,7 @@ from .world import World
 NOTHING = -1
 """Number of the occluder that a thing is which hides nothing."""
 
+Occluder = TypeVar("Occluder", Pillar, Screen)
 Pose = tuple[float, float, float]
 Disc = tuple[float, float, float]
 Thing = tuple[float, float, float, int, float, float]
@@ -104,12 +107,17 @@ class Eyes:
         eye = (x + self._front * cos, y + self._front * sin)
         if self._human:
             eye = (human_pose[0], human_pose[1])
+        # Nearest first: what begins farther away than a thing ends cannot hide it.
+        near_pillars = _by_distance(eye, [(p.x, p.y, p.radius, p) for p in pillars])
+        near_screens = _by_distance(
+            eye, [(s.x, s.y, s.half_length + s.half_width, s) for s in self._inner]
+        )
         near = [(math.hypot(t[0] - x, t[1] - y) - t[2], n) for n, t in enumerate(things)]
         near.sort()
         found = []
         for _, n in near:
             thing = things[n]
-            if self._sees(eye, thing, pillars):
+            if self._sees(eye, thing, near_pillars, near_screens):
                 dx, dy, vx, vy = thing[0] - x, thing[1] - y, thing[4], thing[5]
                 place = (cos * dx + sin * dy, cos * dy - sin * dx, thing[2])
                 found.append((1.0, *place, cos * vx + sin * vy, cos * vy - sin * vx))
@@ -128,14 +136,24 @@ class Eyes:
                 things.append((x, y, walker.radius, number, vx, vy))
         return things, pillars
 
-    def _sees(self, eye: Point, thing: Thing, pillars: list[Pillar]) -> bool:
+    def _sees(
+        self,
+        eye: Point,
+        thing: Thing,
+        near_pillars: tuple[list[float], list[Pillar]],
+        near_screens: tuple[list[float], list[Screen]],
+    ) -> bool:
         x, y, radius, number, _, _ = thing
         ray_x, ray_y = x - eye[0], y - eye[1]
         away = math.hypot(ray_x, ray_y)
         if away - radius > self._range:
             return False
-        inside = abs(y) < self._half_width and abs(eye[1]) < self._half_width
-        screens = self._inner if inside else self._screens
+        reach = away + radius
+        pillars = near_pillars[1][: bisect_right(near_pillars[0], reach)]
+        if abs(y) < self._half_width and abs(eye[1]) < self._half_width:
+            screens = near_screens[1][: bisect_right(near_screens[0], reach)]
+        else:
+            screens = self._screens
         if not (screens or pillars):
             return True
         hiding: Screen | Pillar | None = behind_pillar(eye, (x, y), pillars, number)
@@ -151,6 +169,18 @@ class Eyes:
             and not behind_screen(eye, point, screens, number)
             for point in ((x + side_x, y + side_y), (x - side_x, y - side_y))
         )
+
+
+def _by_distance(
+    eye: Point, occluders: list[tuple[float, float, float, Occluder]]
+) -> tuple[list[float], list[Occluder]]:
+    """Return how near occluders ``(x, y, reach, occluder)`` may begin, and them, nearest first."""
+    if not occluders:
+        return [], []
+    x, y = eye
+    near = [(math.hypot(o[0] - x, o[1] - y) - o[2], n) for n, o in enumerate(occluders)]
+    near.sort()
+    return [away for away, _ in near], [occluders[n][3] for _, n in near]
 
 
 def _hides(one: Screen | Pillar, eye: Point, point: Point) -> bool:
