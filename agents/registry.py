@@ -1,9 +1,10 @@
-"""The human models and automations that ship, by name."""
+"""The human models, their imperfections and the automations that ship, by name."""
 
 from __future__ import annotations
 
 from cowalk.sim.registry import Registry
 
+from .imperfections.wrapper import Imperfection
 from .interfaces import Automation, Human
 
 HUMANS: Registry[Human] = Registry(
@@ -12,8 +13,31 @@ HUMANS: Registry[Human] = Registry(
         "open-loop": "cowalk.agents.humans.open_loop:OpenLoopHuman",
         "steady": "cowalk.agents.humans.steady:SteadyHuman",
         "escalating": "cowalk.agents.humans.escalating:EscalatingHuman",
+        "conceding": "cowalk.agents.humans.conceding:ConcedingHuman",
+        "tit-for-tat": "cowalk.agents.humans.tit_for_tat:TitForTatHuman",
+        "slacking": "cowalk.agents.humans.slacking:SlackingHuman",
+        "bounded-memory": "cowalk.agents.humans.bounded_memory:BoundedMemoryHuman",
+        "impedance": "cowalk.agents.humans.impedance:ImpedanceHuman",
+        "crossover": "cowalk.agents.humans.crossover:CrossoverHuman",
+        "game": "cowalk.agents.humans.game:GameHuman",
+        "recorded": "cowalk.agents.humans.recorded:RecordedHuman",
     },
     "cowalk.humans",
+    methods=("reset", "act", "truth"),
+)
+
+IMPERFECTIONS: Registry[Imperfection] = Registry(
+    "imperfection",
+    {
+        "reaction-delay": "cowalk.agents.imperfections.delay:ReactionDelay",
+        "perception-threshold": "cowalk.agents.imperfections.perception:PerceptionThreshold",
+        "signal-dependent-noise": "cowalk.agents.imperfections.noise:SignalDependentNoise",
+        "tremor": "cowalk.agents.imperfections.tremor:Tremor",
+        "fatigue": "cowalk.agents.imperfections.fatigue:Fatigue",
+        "force-limit": "cowalk.agents.imperfections.force_limit:ForceLimit",
+        "gait-ripple": "cowalk.agents.imperfections.gait:GaitRipple",
+    },
+    "cowalk.imperfections",
 )
 
 AUTOMATIONS: Registry[Automation] = Registry(
@@ -24,4 +48,5 @@ AUTOMATIONS: Registry[Automation] = Registry(
         "always-yields": "cowalk.agents.automations.constant:AlwaysYields",
     },
     "cowalk.automations",
+    methods=("reset", "act", "belief"),
 )

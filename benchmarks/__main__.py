@@ -5,10 +5,12 @@ from __future__ import annotations
 from rich.console import Console
 from rich.table import Table
 
-from . import closed_loop, sensing, surroundings
+from . import closed_loop, humans, imperfections, sensing, surroundings
 
 SUBJECTS = {
     "closed loop": closed_loop.measure,
+    "human models": humans.measure,
+    "imperfections": imperfections.measure,
     "force sensor": sensing.measure,
     "distances and sight": surroundings.measure,
 }

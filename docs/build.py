@@ -58,7 +58,9 @@ def main() -> None:
         quote(ROOT / "README.md", "run", fenced(printed))
         (images / "puddle.png").write_bytes(Path(folder, "puddle", "figure.png").read_bytes())
         output("paper", "--out", folder)
+        output("humans", "show", "escalating", "--out", str(images / "escalating.png"))
         (images / "paper.png").write_bytes(Path(folder, "panels.png").read_bytes())
+    output("humans", "table", "--write", str(DOCS / "humans.md"))
     quote(DOCS / "model.md", "paper", fenced(output("paper")))
     for file, name in (("scenarios.md", "puddle"), ("world.md", "doorway")):
         text = (ROOT / "scenarios" / "library" / f"{name}.scenario.yaml").read_text().rstrip()

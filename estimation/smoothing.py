@@ -111,4 +111,5 @@ SMOOTHERS: Registry[Smoother] = Registry(
         "kalman": "cowalk.estimation.smoothing:KalmanSmoother",
     },
     "cowalk.smoothers",
+    methods=("reset", "update"),
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import inspect
 from collections.abc import Callable, Collection
+from functools import lru_cache
 from typing import Any, TypeVar, get_type_hints
 
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, create_model
@@ -104,7 +105,7 @@ def _prepare(
     registry: Registry[T], component: Component, section: str, shared: Collection[str]
 ) -> tuple[Callable[..., T] | None, dict[str, Any], list[Problem]]:
     """Return the constructor, the validated parameters and every problem of the two."""
-    here: KeyPath = tuple(section.split("."))
+    here = _place(section)
     try:
         constructor = registry.get(component.name)
     except InputError as error:
@@ -120,7 +121,7 @@ def _prepare(
         if name in shared
     ]
     given = {name: value for name, value in component.parameters.items() if name not in shared}
-    accepts, names = _parameter_model(constructor, shared)
+    accepts, names = _parameter_model(constructor, tuple(shared))
     model, faults = validate(accepts, given, at)
     if model is None:
         return constructor, {}, [*problems, *faults]
@@ -128,6 +129,10 @@ def _prepare(
         names[field]: getattr(model, field) for field in names if field in model.model_fields_set
     }
     return constructor, values | (model.model_extra or {}), problems
+
+
+def _place(section: str) -> KeyPath:
+    return tuple(int(step) if step.isdecimal() else step for step in section.split("."))
 
 
 def _elsewhere(name: str, section: str) -> str:
@@ -140,8 +145,9 @@ def _accepted(constructor: Callable[..., Any]) -> dict[str, inspect.Parameter]:
     return {name: item for name, item in parameters.items() if item.kind in _KEYWORDS}
 
 
+@lru_cache
 def _parameter_model(
-    constructor: Callable[..., Any], shared: Collection[str]
+    constructor: Callable[..., Any], shared: tuple[str, ...]
 ) -> tuple[type[BaseModel], dict[str, str]]:
     """Return a model of the constructor's parameters, and which of them each field stands for.
 
@@ -197,7 +203,7 @@ def _checkable(hint: Any) -> Any:
 
 def _constructor_problem(error: Exception, component: Component, section: str) -> Problem:
     """Return why a constructor refused, at the parameter that its message begins with."""
-    here: KeyPath = tuple(section.split("."))
+    here = _place(section)
     if not isinstance(error, ValueError):
         reason = f"it cannot be built: {type(error).__name__}: {error}"
         return Problem((*here, "name"), f"{section}.name = {component.name!r}: {reason}")

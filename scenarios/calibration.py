@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, cast
 
@@ -24,6 +24,12 @@ SEARCHED = {
     "w3/w1, m^2 s^2/rad^2": (0.0, 0.5),
 }
 """What is searched, and between which bounds; the other inferred constants stay fixed."""
+
+_KEYS = {
+    "omega_ub, rad/s": ("bounds.lower=[0.0, -{0:.6g}]", "bounds.upper=[1.2, {0:.6g}]"),
+    "horizon tau, s": ("automation.negotiation.horizon={0:.6g}",),
+    "w3/w1, m^2 s^2/rad^2": ("automation.negotiation.turn_weight={0:.6g}",),
+}
 
 GENERATIONS = 40
 _POPULATION = 15
@@ -80,6 +86,7 @@ def simulate(omega_bound: Array, horizon: Array, turn_weight: Array) -> dict[str
             force=np.zeros((lanes, 1, 2)),
             force_valid=np.ones((lanes, 1)),
             pose=scenario.world.path.relative_pose(pose),
+            pose_world=pose,
             obstacles=np.zeros((lanes, 0, 6)),
             # The sensor reports the control step that ends now, decided a period ago.
             time=np.full((lanes, 1), now - scenario.rates.period),
@@ -95,6 +102,11 @@ def simulate(omega_bound: Array, horizon: Array, turn_weight: Array) -> dict[str
         pose = compose(pose, arc_displacement(twist, base.period))
     stacked = {key: np.stack(values) for key, values in record.items()}
     return measure(time, **stacked, omega_bound=omega_bound)
+
+
+def overrides(constants: Mapping[str, float]) -> list[str]:
+    """Return the ``KEY=VALUE`` overrides that put found constants into the scenario."""
+    return [template.format(value) for name, value in constants.items() for template in _KEYS[name]]
 
 
 def deviation(measured: dict[str, Array]) -> Array:

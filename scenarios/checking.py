@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
-from cowalk.agents.registry import AUTOMATIONS, HUMANS
+from cowalk.agents.registry import AUTOMATIONS, HUMANS, IMPERFECTIONS
 from cowalk.estimation.smoothing import SMOOTHERS
 from cowalk.sim.errors import InputError
 from cowalk.sim.plants import PLANTS
@@ -16,7 +16,8 @@ from cowalk.sim.sensor import ForceSensor
 from cowalk.sim.sensor_parameters import SensorParameters, sensor_preset
 
 from .building import attempt, check_parameters, complete
-from .documents import Document, Problem
+from .documents import Document, Problem, dotted
+from .humans import attempt_human
 from .overrides import component_sections
 from .results import UNITS
 from .schema import Component, Scenario
@@ -27,6 +28,7 @@ C = TypeVar("C", bound=Component)
 REGISTRIES: dict[str, Registry[Any]] = {
     "plant": PLANTS,
     "human": HUMANS,
+    "human.imperfections": IMPERFECTIONS,
     "automation": AUTOMATIONS,
     "automation.smoother": SMOOTHERS,
 }
@@ -35,6 +37,7 @@ REGISTRIES: dict[str, Registry[Any]] = {
 SHARED = {
     "plant": ("rates", "gui"),
     "human": ("intention",),
+    "human.imperfections": ("human",),
     "automation": ("negotiation", "smoother"),
     "automation.smoother": (),
 }
@@ -94,10 +97,14 @@ def resolve(scenario: Scenario) -> Scenario:
 
     smoother = full(scenario.automation.smoother, "automation.smoother")
     automation = full(scenario.automation, "automation").model_copy(update={"smoother": smoother})
+    imperfections = tuple(
+        full(item, "human.imperfections") for item in scenario.human.imperfections
+    )
+    human = full(scenario.human, "human").model_copy(update={"imperfections": imperfections})
     return scenario.model_copy(
         update={
             "plant": full(scenario.plant, "plant"),
-            "human": full(scenario.human, "human"),
+            "human": human,
             "automation": automation,
         }
     )
@@ -107,12 +114,13 @@ def _components(data: dict[str, Any], scenario: Scenario | None) -> list[Problem
     """Return the problems of all named parts; they are built if everything around is right."""
     problems: list[Problem] = []
     for _, path, value in component_sections(data):
-        section = ".".join(path)
+        section = dotted(path)
+        kind = dotted(tuple(step for step in path if isinstance(step, str)))
         try:
             component = Component(name=value["name"], parameters=value.get("parameters") or {})
         except (ValidationError, TypeError, KeyError):
             continue  # reported as a fault of the schema already
-        problems += check_parameters(REGISTRIES[section], component, section, SHARED[section])
+        problems += check_parameters(REGISTRIES[kind], component, section, SHARED[kind])
     if not problems and scenario is not None:
         problems += _agents(scenario)
     return problems
@@ -123,7 +131,7 @@ def _agents(scenario: Scenario) -> list[Problem]:
     seat = scenario.automation
     smoother = attempt(SMOOTHERS, seat.smoother, "automation.smoother")
     built = (
-        attempt(HUMANS, scenario.human, "human", intention=scenario.human.intention),
+        attempt_human(scenario.human, scenario.plant.name, scenario.rates.period),
         smoother,
         attempt(AUTOMATIONS, seat, "automation", negotiation=seat.negotiation, smoother=smoother),
     )

@@ -5,15 +5,16 @@ Nothing but typer is imported before a command needs it, so that ``--help`` answ
 
 from __future__ import annotations
 
+import signal
 import sys
-from collections.abc import Callable
+from contextlib import redirect_stdout
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from . import cli_studies
+from . import cli_humans, cli_studies
 from .cli_output import BAD_INPUT, FAILED, PASSED, complain, emit_json, emit_table, progress_bar
 
 if TYPE_CHECKING:
@@ -44,6 +45,8 @@ class Kind(StrEnum):
 
     SCENARIOS = "scenarios"
     HUMANS = "humans"
+    IMPERFECTIONS = "imperfections"
+    POPULATIONS = "populations"
     AUTOMATIONS = "automations"
     SMOOTHERS = "smoothers"
     PLANTS = "plants"
@@ -90,7 +93,8 @@ def run(
     }
     loaded = _load(scenario, options, assign or [])
     folder = writable_folder(out if out is not None else Path("runs") / loaded.name)
-    with progress_bar(loaded.name) as progress:
+    # What a user's class prints must not end up in the JSON.
+    with progress_bar(loaded.name) as progress, redirect_stdout(sys.stderr):
         result = run_scenario(loaded, progress)
     result.write(folder)
     if as_json:
@@ -155,26 +159,28 @@ def list_parts(
     kind: Annotated[Kind | None, typer.Argument(help="One kind alone.")] = None,
     as_json: Json = False,
 ) -> int:
-    """List scenarios, humans, automations, smoothers, plants, sensor presets."""
-    from cowalk.agents.registry import AUTOMATIONS, HUMANS
+    """List scenarios, humans, automations, sensors and everything else that has a name."""
+    from cowalk.agents.registry import AUTOMATIONS, HUMANS, IMPERFECTIONS
     from cowalk.estimation.smoothing import SMOOTHERS
     from cowalk.sim.plants import PLANTS
     from cowalk.sim.sensor_parameters import PRESETS
 
-    described: dict[Kind, Callable[[], dict[str, str]]] = {
-        Kind.SCENARIOS: _scenarios,
-        Kind.SENSORS: lambda: {name: text for name, (text, _) in PRESETS.items()},
-    }
     registries: dict[Kind, Registry[Any]] = {
         Kind.HUMANS: HUMANS,
+        Kind.IMPERFECTIONS: IMPERFECTIONS,
         Kind.AUTOMATIONS: AUTOMATIONS,
         Kind.SMOOTHERS: SMOOTHERS,
         Kind.PLANTS: PLANTS,
     }
     found: dict[str, list[dict[str, str]]] = {}
     for each in [kind] if kind else Kind:
-        parts = _parts(registries[each]) if each in registries else described[each]()
-        found[each.value] = [{"name": n, "description": d} for n, d in parts.items()]
+        if each in registries:
+            described = _parts(registries[each])
+        elif each is Kind.SENSORS:
+            described = {name: text for name, (text, _) in PRESETS.items()}
+        else:
+            described = _files(each)
+        found[each.value] = [{"name": n, "description": d} for n, d in described.items()]
     if as_json:
         emit_json(found)
     else:
@@ -183,11 +189,13 @@ def list_parts(
     return PASSED
 
 
-def _scenarios() -> dict[str, str]:
+def _files(kind: Kind) -> dict[str, str]:
     from .documents import parse
     from .loading import library
+    from .population import population_library
 
-    data = {name: parse(file.read_text(encoding="utf-8")).data for name, file in library().items()}
+    known = library() if kind is Kind.SCENARIOS else population_library()
+    data = {name: parse(file.read_text(encoding="utf-8")).data for name, file in known.items()}
     return {name: str(item.get("description", "")) for name, item in data.items()}
 
 
@@ -205,12 +213,20 @@ def _parts(registry: Registry[Any]) -> dict[str, str]:
 
 
 @app.command(
-    epilog="\b\nExamples:\n  cowalk check my.scenario.yaml\n  cowalk check *.scenario.yaml"
+    epilog=(
+        "\b\nExamples:\n"
+        "  cowalk check my.scenario.yaml\n"
+        "  cowalk check *.scenario.yaml\n"
+        "  cowalk check mymodels:MyHuman"
+    )
 )
 def check(
-    files: Annotated[list[str], typer.Argument(metavar="FILE...", help="Scenario files.")],
+    files: Annotated[
+        list[str],
+        typer.Argument(metavar="FILE...", help="Scenario files, or agents as module:Class."),
+    ],
 ) -> int:
-    """Report every fault of scenario files with its line."""
+    """Report every fault of scenario files with its line, or of your own agents."""
     from cowalk.sim.errors import InputError
 
     from .loading import faults, find
@@ -218,7 +234,10 @@ def check(
     code = PASSED
     for file in files:
         try:
-            found = [str(fault) for fault in faults(find(file))]
+            if ":" in file and not Path(file).exists():
+                found = cli_humans.agent_faults(file)
+            else:
+                found = [str(fault) for fault in faults(find(file))]
         except InputError as error:
             found = [str(error)]
         print("\n".join(found) if found else f"{file}: no fault")
@@ -226,11 +245,14 @@ def check(
     return code
 
 
+cli_humans.register(app)
 cli_studies.register(app)
 
 
 def main() -> None:
     """Run the command line and exit with its code."""
+    # A run that is told to stop keeps what it has, as after Ctrl-C.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     # Without arguments: the help, not a complaint.
     try:
         code = app(args=sys.argv[1:] or ["--help"], prog_name="cowalk", standalone_mode=False)

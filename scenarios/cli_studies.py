@@ -52,11 +52,14 @@ def paper(
 
     if out is not None:
         writable_folder(out)
+    found: list[str] = []
     if calibrate:
         from .calibration import calibrate as search
+        from .calibration import overrides
 
         with progress_bar("calibrating") as progress:
             constants, rows = search(seed, progress)
+        found = overrides(constants)
     else:
         from .paper import constants as inferred
         from .paper import reproduce
@@ -66,7 +69,7 @@ def paper(
     if out is not None:
         from .paper import draw
 
-        files = [str(file) for file in draw(out)]
+        files = [str(file) for file in draw(out, found)]
     if as_json:
         emit_json(
             {
@@ -80,6 +83,8 @@ def paper(
         _records("reported in the paper, and ours", rows)
         title = f"found with seed {seed}" if calibrate else "inferred: the paper does not print"
         emit_table(title, ("constant", "value"), constants.items())
+        if found:
+            print("to run them: cowalk run paper-open-loop", *(f"--set '{each}'" for each in found))
         for file in files:
             print(f"picture:  {file}")
     return PASSED if all(row.passed for row in rows) else FAILED

@@ -28,7 +28,10 @@ class SmootherScore:
     rmse, bias : float
         Error of the smoothed stubbornness against the true one, 1.
     lag : float
-        Delay behind the truth at the peak of the cross-correlation, s.
+        Delay behind the truth at the peak of the cross-correlation, s. It is negative where
+        the force that is read comes before the stubbornness that it brings about.
+    delay : float
+        Delay behind the estimate that went into the smoother, s: the smoother's own.
     unsmoothed_rmse : float
         Error of the estimate that went into the smoother, 1.
     rmse_spread, lag_spread : float
@@ -43,6 +46,7 @@ class SmootherScore:
     bias: float
     lag: float
     lag_spread: float
+    delay: float
     unsmoothed_rmse: float
     runs: int
 
@@ -90,8 +94,8 @@ def compare_smoothers(
     return [_summary(name, np.array(scores[name])) for name in names]
 
 
-def _scores(scenario: Scenario, smoother: str, seed: int) -> tuple[float, float, float, float]:
-    """Return (rmse, bias, lag, unsmoothed rmse) of one run."""
+def _scores(scenario: Scenario, smoother: str, seed: int) -> tuple[float, ...]:
+    """Return (rmse, bias, lag, delay, unsmoothed rmse) of one run."""
     current = scenario.automation.smoother
     chosen = current if current.name == smoother else Component(name=smoother)
     automation = scenario.automation.model_copy(update={"smoother": chosen})
@@ -101,11 +105,13 @@ def _scores(scenario: Scenario, smoother: str, seed: int) -> tuple[float, float,
     trace, period = result.trace, scenario.rates.period
     truth = trace["true_stubbornness_omega"]
     smoothed = trace["smoothed_stubbornness_omega"]
+    estimate = trace["est_stubbornness_omega"]
     return (
         rmse(smoothed, truth),
         bias(smoothed, truth),
         lag(smoothed, truth, period),
-        rmse(trace["est_stubbornness_omega"], truth),
+        lag(smoothed, estimate, period),
+        rmse(estimate, truth),
     )
 
 
@@ -118,6 +124,7 @@ def _summary(name: str, values: np.ndarray) -> SmootherScore:
         bias=float(mean[1]),
         lag=float(mean[2]),
         lag_spread=float(spread[2]),
-        unsmoothed_rmse=float(mean[3]),
+        delay=float(mean[3]),
+        unsmoothed_rmse=float(mean[4]),
         runs=len(values),
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.resources import files
@@ -90,7 +91,7 @@ def load(source: str | Path, overrides: Sequence[str] = ()) -> Scenario:
         If the file or an override is not right: the first fault, in one line.
     """
     file = find(source)
-    document = _read(file)
+    document = read_document(file)
     expand_names(document.data)
     overridden: dict[KeyPath, str] = {}
     if isinstance(document.data, dict) and not document.problems:
@@ -123,7 +124,7 @@ def faults(file: str | Path) -> list[Fault]:
     InputError
         If the file cannot be read.
     """
-    document = _read(Path(file))
+    document = read_document(Path(file))
     expand_names(document.data)
     found = [
         Fault(Path(file), document.line(problem.path), dotted(problem.path), problem.message)
@@ -132,7 +133,18 @@ def faults(file: str | Path) -> list[Fault]:
     return sorted(found, key=lambda fault: fault.line)
 
 
-def _read(file: Path) -> Document:
+def read_document(file: Path) -> Document:
+    """Return the document that a file holds.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read.
+    """
+    # `module:Class` is looked for beside the file, wherever it is run from.
+    folder = str(file.resolve().parent)
+    if folder not in sys.path:
+        sys.path.append(folder)
     try:
         return parse(file.read_text(encoding="utf-8"))
     except OSError as error:

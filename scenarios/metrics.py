@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from cowalk.estimation.scoring import bias, lag, rmse
-from cowalk.sim.motion import Array
+from cowalk.sim.motion import Array, Path
 
 AGREEMENT = 0.05
 """Difference between human's wish and executed turn rate that counts as agreement, rad/s."""
@@ -15,7 +15,9 @@ HELD = 2.0
 """Time for which agreement must last to count, s."""
 
 
-def metrics(columns: Mapping[str, Array], period: float) -> dict[str, dict[str, float | str]]:
+def metrics(
+    columns: Mapping[str, Array], period: float, path: Path
+) -> dict[str, dict[str, float | str]]:
     """Return the metrics of a trace.
 
     Parameters
@@ -24,6 +26,8 @@ def metrics(columns: Mapping[str, Array], period: float) -> dict[str, dict[str, 
         Trace columns (`cowalk.scenarios.results.UNITS`), at least one row.
     period : float
         Control period, s.
+    path : Path
+        What lateral offset refers to.
 
     Returns
     -------
@@ -35,9 +39,11 @@ def metrics(columns: Mapping[str, Array], period: float) -> dict[str, dict[str, 
     power = columns["fx"] * columns["v"]
     truth, estimate = columns["true_stubbornness_omega"], columns["est_stubbornness_omega"]
     smoothed = columns["smoothed_stubbornness_omega"]
+    pose = np.stack((columns["x"], columns["y"], columns["theta"]), axis=-1)
+    offset = path.relative_pose(pose)[:, 1]
     values: dict[str, tuple[float, str]] = {
         "smallest clearance": (float(np.min(columns["clearance"])), "m"),
-        "largest lateral offset": (float(columns["y"][np.argmax(np.abs(columns["y"]))]), "m"),
+        "largest lateral offset": (float(offset[np.argmax(np.abs(offset))]), "m"),
         "distance walked": (float(np.sum(np.abs(columns["v"])) * period), "m"),
         "mean force": (float(np.mean(force)), "N"),
         "peak force": (float(np.max(force)), "N"),

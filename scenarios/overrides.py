@@ -18,16 +18,24 @@ COMPONENTS: tuple[tuple[str, ...], ...] = (
     ("automation", "smoother"),
 )
 """Sections that name a replaceable part; outer ones first."""
+COMPONENT_LISTS: tuple[tuple[str, ...], ...] = (("human", "imperfections"),)
+"""Lists of such sections."""
 
 
-def component_sections(data: Any) -> Iterator[tuple[dict[str, Any], tuple[str, ...], Any]]:
+def component_sections(data: Any) -> Iterator[tuple[Any, KeyPath, Any]]:
     """Yield the parent, the path and the value of every component that data give."""
-    for path in COMPONENTS:
+    for path in (*COMPONENTS, *COMPONENT_LISTS):
         parent = data
         for step in path[:-1]:
             parent = parent.get(step) if isinstance(parent, dict) else None
-        if isinstance(parent, dict) and path[-1] in parent:
-            yield parent, path, parent[path[-1]]
+        if not isinstance(parent, dict) or path[-1] not in parent:
+            continue
+        value = parent[path[-1]]
+        if path in COMPONENTS:
+            yield parent, path, value
+        elif isinstance(value, list):
+            for index, item in enumerate(value):
+                yield value, (*path, index), item
 
 
 def expand_names(data: Any) -> None:
@@ -46,7 +54,8 @@ def override(data: dict[str, Any], assignment: str) -> KeyPath:
     """Replace one value of plain data in place, and return where it stands.
 
     A component set to a name alone is swapped: its ``parameters`` go with the old name, what
-    else its section holds (``intention``, ``negotiation``, ``smoother``) stays.
+    else its section holds (``intention``, ``imperfections``, ``negotiation``, ``smoother``)
+    stays.
 
     Parameters
     ----------

@@ -6,7 +6,7 @@ other constants are inferred (`cowalk.scenarios.calibration`).
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -130,12 +130,12 @@ def rows(measured: Mapping[str, Array]) -> list[Row]:
     ]
 
 
-def run_paper() -> RunResult:
-    """Run the paper's scenario."""
+def run_paper(overrides: Sequence[str] = ()) -> RunResult:
+    """Run the paper's scenario, with ``KEY=VALUE`` overrides."""
     from .loading import load
     from .runner import run
 
-    return run(load(SCENARIO))
+    return run(load(SCENARIO, overrides))
 
 
 def reproduce(result: RunResult | None = None) -> list[Row]:
@@ -180,8 +180,14 @@ def constants() -> dict[str, Any]:
     }
 
 
-def draw(folder: str | Path) -> list[Path]:
+def draw(folder: str | Path, overrides: Sequence[str] = ()) -> list[Path]:
     """Draw the paper's two figures into a folder and return the files.
+
+    Parameters
+    ----------
+    folder : str or Path
+    overrides : sequence of str
+        As in `run_paper`.
 
     Raises
     ------
@@ -205,5 +211,5 @@ def draw(folder: str | Path) -> list[Path]:
         ("omega", 34.4, float("nan"), "34.4 s"),
         ("y", 29.0, 0.52, "0.52 m"),
     ]
-    draw_paper_panels(run_paper(), files[1], marks)
+    draw_paper_panels(run_paper(overrides), files[1], marks)
     return files

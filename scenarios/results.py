@@ -65,15 +65,17 @@ class Trace:
     Parameters
     ----------
     capacity : int
-        Number of rows to make room for.
+        Number of rows to make room for at first.
     """
 
-    def __init__(self, capacity: int) -> None:
+    def __init__(self, capacity: int = 1024) -> None:
         self._rows = np.empty((capacity, len(UNITS)))
         self._count = 0
 
     def append(self, row: tuple[float, ...]) -> None:
         """Add a row, values in the order of `UNITS`."""
+        if self._count == len(self._rows):
+            self._rows = np.concatenate((self._rows, np.empty_like(self._rows)))
         self._rows[self._count] = row
         self._count += 1
 
@@ -109,7 +111,7 @@ class Trace:
             ]
         )
         arrays = [
-            pa.array(column.astype(np.int64) if name == "negotiation" else column)
+            pa.array(np.nan_to_num(column).astype(np.int64) if name == "negotiation" else column)
             for name, column in self.columns().items()
         ]
         pq.write_table(pa.Table.from_arrays(arrays, schema=schema), file)
@@ -120,7 +122,7 @@ class Trace:
         import pyarrow.parquet as pq
 
         table = pq.read_table(file)
-        trace = cls(table.num_rows)
+        trace = cls(max(1, table.num_rows))
         for i, name in enumerate(UNITS):
             trace._rows[:, i] = table.column(name).to_numpy()
         trace._count = table.num_rows

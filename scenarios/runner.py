@@ -13,14 +13,15 @@ from typing import Any
 import numpy as np
 
 from cowalk.agents.interfaces import Automation, Belief, Human, Situation, Truth
-from cowalk.agents.registry import AUTOMATIONS, HUMANS
+from cowalk.agents.registry import AUTOMATIONS
 from cowalk.estimation.smoothing import SMOOTHERS
 from cowalk.sim.env import CowalkEnv
 from cowalk.sim.errors import InputError, SimulationError
-from cowalk.sim.motion import Array
 
+from .answers import AgentError, of_kind, pair
 from .building import build
 from .expectations import judge
+from .humans import build_human
 from .loading import load
 from .metrics import metrics
 from .results import RunResult, Trace, json_ready
@@ -56,6 +57,7 @@ def make_env(scenario: str | Scenario, render_mode: str | None = None) -> Cowalk
         bounds=chosen.bounds,
         pace=chosen.pace,
         duration=chosen.duration,
+        force_limit=chosen.force_limit,
         render_mode=render_mode,
     )
 
@@ -68,7 +70,7 @@ def build_agents(scenario: Scenario) -> tuple[Human, Automation]:
     InputError
         If a name or a parameter is not right.
     """
-    human = build(HUMANS, scenario.human, "human", intention=scenario.human.intention)
+    human = build_human(scenario.human, scenario.plant.name, scenario.rates.period)
     smoother = build(SMOOTHERS, scenario.automation.smoother, "automation.smoother")
     automation = build(
         AUTOMATIONS,
@@ -98,7 +100,7 @@ def run(scenario: Scenario, progress: Progress | None = None) -> RunResult:
     """
     human, automation = build_agents(scenario)
     env = make_env(scenario)
-    trace = Trace(env.steps_per_episode)
+    trace = Trace()
     started = time.perf_counter()
     try:
         end, error = _episode(scenario, env, human, automation, trace, progress)
@@ -121,7 +123,11 @@ def _episode(
     situation = Situation(
         scenario.world.path, scenario.pace, scenario.bounds, scenario.rates.period
     )
-    row = _Row(scenario)
+    names = {
+        "human": f"human {scenario.human.name!r}",
+        "automation": f"automation {scenario.automation.name!r}",
+        "plant": f"plant {scenario.plant.name!r}",
+    }
     total = env.steps_per_episode
     report_every = scenario.rates.control
     infos: dict[str, dict[str, Any]] = {}
@@ -135,13 +141,16 @@ def _episode(
         while env.agents:
             actor = "human"
             force = human.act(observations["human"])
-            truth = human.truth()
+            pair(force, "act", "the force [fx, fy] in N")
+            truth = _of_truth(human.truth())
             actor = "automation"
             twist = automation.act(observations["automation"])
-            belief = automation.belief()
+            pair(twist, "act", "the twist [v, omega] in m/s and rad/s")
+            belief = _of_belief(automation.belief())
             actor = "plant"
             observations, _, _, _, infos = env.step({"human": force, "automation": twist})
-            trace.append(row(env, force, twist, truth, belief, infos["human"]["clearance"]))
+            time_now = (len(trace) + 1) / scenario.rates.control
+            trace.append(_row(time_now, env, truth, belief, infos["human"]["clearance"]))
             if progress is not None and len(trace) % report_every == 0:
                 progress(len(trace), total)
     except InputError:
@@ -150,64 +159,63 @@ def _episode(
         return "aborted", f"{scenario.name}: {failure}"
     except KeyboardInterrupt:
         return "interrupted", f"{scenario.name}: interrupted by the user"
-    except Exception as failure:
-        names = {"human": scenario.human.name, "automation": scenario.automation.name}
-        name = names.get(actor, scenario.plant.name)
+    except AgentError as failure:
         when = f"t = {len(trace) * scenario.rates.period:g} s"
-        return "aborted", f"{actor} {name!r} failed at {when}: {type(failure).__name__}: {failure}"
+        return "aborted", f"{names[actor]} at {when}: {failure}"
+    except (Exception, SystemExit) as failure:  # a user's class may raise anything
+        when = f"t = {len(trace) * scenario.rates.period:g} s"
+        return "aborted", f"{names[actor]} failed at {when}: {type(failure).__name__}: {failure}"
     last = infos["human"]
     return "goal" if last["goal"] else "collision" if last["collision"] else "time", None
 
 
-class _Row:
-    """Assembles trace rows; what only changes with a negotiation is unpacked once for each."""
+def _of_truth(truth: Truth) -> tuple[float, ...]:
+    of_kind(truth, Truth, "truth")
+    return (
+        *pair(truth.stubbornness, "truth", "the stubbornness [v, omega]"),
+        *pair(truth.wish, "truth", "the wish [v, omega] in m/s and rad/s"),
+    )
 
-    def __init__(self, scenario: Scenario) -> None:
-        self._control = scenario.rates.control
-        self._count = 0
-        self._belief: Belief | None = None
-        self._believed: tuple[float, ...] = ()
 
-    def __call__(
-        self,
-        env: CowalkEnv,
-        force: Array,
-        twist: Array,
-        truth: Truth,
-        belief: Belief,
-        clearance: float,
-    ) -> tuple[float, ...]:
-        self._count += 1
-        if belief is not self._belief:
-            self._belief = belief
-            self._believed = (
-                *belief.stubbornness.tolist(),
-                *belief.stubbornness_smoothed.tolist(),
-                *belief.human_wish.tolist(),
-                *belief.wish.tolist(),
-                float(belief.interaction),
-                float(belief.interaction_smoothed),
-                float(belief.utility_loss),
-                float(belief.target_utility),
-                float(belief.negotiation),
-            )
-        state = env.plant_state
-        measured = env.measured_force
-        fx, fy = (measured.sum(axis=0) / len(measured)).tolist()
-        return (
-            self._count / self._control,
-            *state.pose,
-            *state.twist,
-            *twist,
-            fx,
-            fy,
-            *force,
-            *state.human_pose,
-            *truth.stubbornness.tolist(),
-            *truth.wish.tolist(),
-            *self._believed,
-            clearance,
-        )
+def _of_belief(belief: Belief) -> tuple[float, ...]:
+    of_kind(belief, Belief, "belief")
+    return (
+        *belief.stubbornness.tolist(),
+        *belief.stubbornness_smoothed.tolist(),
+        *belief.human_wish.tolist(),
+        *belief.wish.tolist(),
+        float(belief.interaction),
+        float(belief.interaction_smoothed),
+        float(belief.utility_loss),
+        float(belief.target_utility),
+        float(belief.negotiation),
+    )
+
+
+def _row(
+    time_now: float,
+    env: CowalkEnv,
+    truth: tuple[float, ...],
+    belief: tuple[float, ...],
+    clearance: float,
+) -> tuple[float, ...]:
+    """Return a trace row, in the order of `cowalk.scenarios.results.UNITS`."""
+    state, measured = env.plant_state, env.measured_force
+    force, twist = env.applied
+    fx, fy = (measured.sum(axis=0) / len(measured)).tolist()
+    return (
+        time_now,
+        *state.pose,
+        *state.twist,
+        *twist,
+        fx,
+        fy,
+        *force,
+        *state.human_pose,
+        *truth,
+        *belief,
+        clearance,
+    )
 
 
 def _result(
@@ -230,7 +238,7 @@ def _result(
         "simulated_time_s": simulated,
         "wall_time_s": wall_time,
         "real_time_factor": simulated / wall_time if wall_time > 0.0 else math.inf,
-        "metrics": metrics(columns, period) if len(trace) else {},
+        "metrics": metrics(columns, period, scenario.world.path) if len(trace) else {},
         "expectations": [asdict(verdict) for verdict in verdicts],
         "versions": {
             "python": platform.python_version(),

@@ -30,9 +30,14 @@ class Component(BaseModel):
 
 
 class HumanComponent(Component):
-    """The human seat. What they want (``intention``) stays when the model is swapped."""
+    """The human seat. ``intention`` and ``imperfections`` stay when the model is swapped.
+
+    The first imperfection is the innermost: it acts on what the model asks for, the next one
+    on what the first leaves of it.
+    """
 
     intention: IntentionSettings = Field(default_factory=IntentionSettings)
+    imperfections: tuple[Component, ...] = ()
 
 
 class AutomationComponent(Component):
@@ -47,7 +52,7 @@ class Scenario(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    name: str
+    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9 ._-]*$")]
     description: str = ""
     seed: Annotated[int, Field(ge=0)] = 0
     duration: Annotated[float, Field(gt=0.0, allow_inf_nan=False)] = 30.0
@@ -57,6 +62,7 @@ class Scenario(BaseModel):
     world: World
     sensor: SensorParameters = SensorParameters()
     bounds: TwistBounds = TwistBounds()
+    force_limit: Annotated[float, Field(gt=0.0, allow_inf_nan=False)] = 30.0
     human: HumanComponent
     automation: AutomationComponent
     expect: dict[str, str] = Field(default_factory=dict)

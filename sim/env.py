@@ -9,7 +9,7 @@ import numpy as np
 from gymnasium.spaces import Box, Dict
 from pettingzoo import ParallelEnv
 
-from .errors import SimulationError
+from .errors import InputError, SimulationError
 from .eyes import Eyes
 from .motion import Array, Path, TwistBounds
 from .observation import OBSTACLE_COLUMNS, OBSTACLE_ROWS, Observation
@@ -35,9 +35,10 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
     The human's action is the intended hand force on the base ``[fx, fy]``, base axes, N; the
     automation's is the twist to execute ``[v, omega]``, m/s and rad/s. Actions beyond the
     action space are clipped to it. Both seats perceive the same dict of named boxes: ``twist``
-    (2,), ``force`` (samples, 2), ``force_valid`` (samples,), ``pose`` (3,), ``obstacles`` (8, 6)
-    and ``time`` (1,), with the meaning given in `cowalk.sim.observation.Observation`. Spaces do
-    not depend on who sits in the seats.
+    (2,), ``force`` (samples, 2), ``force_valid`` (samples,), ``pose`` (3,) relative to the path,
+    ``pose_world`` (3,), ``obstacles`` (8, 6) and ``time`` (1,), as
+    `cowalk.sim.observation.Observation` explains.
+    Spaces do not depend on who sits in the seats.
 
     Rewards are those of `cowalk.sim.reward.Reward`. An episode terminates when the base
     reaches the end of the path (``goal``) or a body touches something solid (``collision``),
@@ -92,6 +93,8 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
     ) -> None:
         self.world, self.rates, self.bounds, self.pace = world, rates, bounds, pace
         self.steps_per_episode = max(1, round(duration * rates.control))
+        if render_mode not in (None, *self.metadata["render_modes"]):
+            raise InputError(f"render_mode = {render_mode!r}; known: None, human, rgb_array")
         self.render_mode = render_mode
         constructor = PLANTS.get(plant)
         arguments = dict(plant_parameters or {})
@@ -112,6 +115,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
                 "force": _box(rates.samples, 2),
                 "force_valid": _box(rates.samples),
                 "pose": _box(3),
+                "pose_world": _box(3),
                 "obstacles": _box(OBSTACLE_ROWS, OBSTACLE_COLUMNS),
                 "time": _box(1),
             }
@@ -128,6 +132,8 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self._felt = np.ones(rates.samples)
         self._generator = np.random.default_rng()
         self._step_count = 0
+        self.applied = (0.0, 0.0), (0.0, 0.0)
+        """Force (N) and twist (m/s, rad/s) of the last step, clipped to the action spaces."""
 
     def observation_space(self, agent: str) -> Dict:
         """Return the observation space of a seat: the same for both."""
@@ -188,8 +194,11 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         SimulationError
             If an action is not finite, or the plant cannot go on.
         """
+        if not self.agents:
+            raise SimulationError("no episode is under way: call reset before step")
         force = self._bounded("human", actions["human"])
         twist = self._bounded("automation", actions["automation"])
+        self.applied = force, twist
         state = self._state = self._plant.step(twist, force)
         self._step_count += 1
         self._reading = self._sensor.measure(state.force_on_base)
@@ -270,6 +279,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
                 force=force[seat].copy(),
                 force_valid=valid[seat].astype(float),
                 pose=np.array(self._relative),
+                pose_world=np.array(state.pose),
                 obstacles=self._eyes[seat].look(state.pose, state.human_pose, self._time),
                 time=time.copy(),
             )

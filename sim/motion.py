@@ -7,6 +7,7 @@ a circular arc. A *pose* is ``[x, y, theta]`` in m, m, rad, world axes, counter-
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -177,6 +178,7 @@ class Path:
     _low: Array = field(init=False, repr=False, compare=False)
     _high: Array = field(init=False, repr=False, compare=False)
     _legs: tuple[tuple[float, ...], ...] = field(init=False, repr=False, compare=False)
+    _turns: list[float] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         points = np.asarray(self.points, dtype=float)
@@ -202,6 +204,7 @@ class Path:
         columns = (low, high, *points[:-1].T, *self._direction.T, self._station[:-1], self._angle)
         legs_in_floats = tuple(zip(*(column.tolist() for column in columns), strict=True))
         object.__setattr__(self, "_legs", legs_in_floats)
+        object.__setattr__(self, "_turns", self._station[1:-1].tolist())
 
     @property
     def length(self) -> float:
@@ -218,8 +221,8 @@ class Path:
         Returns
         -------
         ndarray, shape (..., 3)
-            Distance along the path of the nearest path point (m), lateral offset (m, left
-            positive) and heading against the path's direction there (rad, in [-pi, pi)).
+            Distance along the path of the nearest path point (m), distance from it (m, positive
+            to the left) and heading against the path's direction there (rad, in [-pi, pi)).
         """
         pose = np.asarray(pose_world, dtype=float)
         offset = pose[..., None, :2] - self._start
@@ -230,15 +233,15 @@ class Path:
             return np.stack(
                 (along[..., 0], across[..., 0], wrap_angle(pose[..., 2] - self._angle[0])), axis=-1
             )
-        beyond = along - np.clip(along, self._low, self._high)
-        nearest = np.argmin(beyond**2 + across**2, axis=-1)
+        distance = np.hypot(along - np.clip(along, self._low, self._high), across)
+        nearest = np.argmin(distance, axis=-1)
         pick = nearest[..., None]
         on_leg = np.take_along_axis(along, pick, axis=-1)[..., 0]
         on_leg = np.clip(on_leg, self._low[nearest], self._high[nearest])
         return np.stack(
             (
                 self._station[nearest] + on_leg,
-                np.take_along_axis(across, pick, axis=-1)[..., 0],
+                np.take_along_axis(np.copysign(distance, across), pick, axis=-1)[..., 0],
                 wrap_angle(pose[..., 2] - self._angle[nearest]),
             ),
             axis=-1,
@@ -251,12 +254,23 @@ class Path:
             dx, dy = x - start_x, y - start_y
             along, across = dx * ux + dy * uy, ux * dy - uy * dx
             within = min(max(along, low), high)
-            distance = (along - within) ** 2 + across * across
+            distance = math.hypot(along - within, across)
             if distance < nearest:
                 nearest = distance
-                found = begins + within, across, angle
+                found = begins + within, math.copysign(distance, across), angle
         station, offset, direction = found
         return station, offset, (theta - direction + math.pi) % (2.0 * math.pi) - math.pi
+
+    def absolute(self, station: float, offset: float, heading: float) -> tuple[float, float, float]:
+        """Return `absolute_pose` of one pose in plain floats, as `relative` is for its inverse."""
+        leg = bisect_right(self._turns, station)
+        _, _, start_x, start_y, ux, uy, begins, angle = self._legs[leg]
+        along = station - begins
+        return (
+            start_x + along * ux - offset * uy,
+            start_y + along * uy + offset * ux,
+            angle + heading,
+        )
 
     def point_at(self, station: ArrayLike) -> Array:
         """Return the path point at a distance along the path.

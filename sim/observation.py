@@ -26,6 +26,8 @@ class Observation(TypedDict):
         1 where the sample arrived, 0 where it was lost and ``force`` repeats the one before.
     pose : ndarray, shape (..., 3)
         Base pose relative to the path: station m, lateral offset m (left positive), heading rad.
+    pose_world : ndarray, shape (..., 3)
+        Base pose in the world: m, m, rad.
     obstacles : ndarray, shape (..., rows, 6)
         Obstacles the seat perceives in base axes, nearest first: ``[present, x, y, radius, vx,
         vy]`` with present 1 or 0, m, and m/s over ground; rows that are not in use are zero.
@@ -37,5 +39,6 @@ class Observation(TypedDict):
     force: Array
     force_valid: Array
     pose: Array
+    pose_world: Array
     obstacles: Array
     time: Array

@@ -11,4 +11,5 @@ PLANTS: Registry[Plant] = Registry(
         "unicycle": "cowalk.sim.unicycle:UnicyclePlant",
         "bullet": "cowalk.sim.bullet:BulletPlant",
     },
+    methods=("reset", "step", "render", "close"),
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import sys
 from collections.abc import Callable, Iterator, Mapping
+from functools import cache
 from importlib import import_module
 from importlib.metadata import entry_points
 from pathlib import Path
@@ -22,6 +23,12 @@ def did_you_mean(name: str, known: list[str]) -> str:
     return f"{hint}Known: {', '.join(known)}"
 
 
+@cache
+def _installed(group: str) -> dict[str, str]:
+    # Reading the metadata of all installed packages takes milliseconds.
+    return {point.name: point.value for point in entry_points(group=group)}
+
+
 class Registry(Generic[T]):
     """A set of named constructors of one kind of part.
 
@@ -33,18 +40,24 @@ class Registry(Generic[T]):
         ``module:Class`` for every name that ships; nothing is imported before it is asked for.
     entry_point_group : str, optional
         Group of Python entry points that adds names.
+    methods : tuple of str
+        What a class must have to be of this kind.
     """
 
     def __init__(
-        self, kind: str, built_in: Mapping[str, str], entry_point_group: str | None = None
+        self,
+        kind: str,
+        built_in: Mapping[str, str],
+        entry_point_group: str | None = None,
+        methods: tuple[str, ...] = (),
     ) -> None:
         self.kind = kind
         self._built_in = dict(built_in)
         self._group = entry_point_group
+        self._methods = methods
 
     def _addresses(self) -> dict[str, str]:
-        added = entry_points(group=self._group) if self._group else ()
-        return self._built_in | {point.name: point.value for point in added}
+        return self._built_in | (_installed(self._group) if self._group else {})
 
     def names(self) -> list[str]:
         """Return all registered names, sorted."""
@@ -67,7 +80,7 @@ class Registry(Generic[T]):
         module_name, _, attribute = address.partition(":")
         here = str(Path.cwd())
         if ":" in name and here not in sys.path:
-            sys.path.append(here)  # a user's file beside the scenario, as with `python -m`
+            sys.path.append(here)  # a user's file in the current folder, as with `python -m`
         try:
             part: Any = import_module(module_name)
             for step in attribute.split("."):
@@ -76,4 +89,10 @@ class Registry(Generic[T]):
             raise InputError(f"{self.kind} {name!r} cannot be imported: {error}") from error
         if not callable(part):
             raise InputError(f"{self.kind} {name!r} is not a class")
+        missing = [method for method in self._methods if not hasattr(part, method)]
+        if isinstance(part, type) and missing:
+            needs = ", ".join(self._methods)
+            raise InputError(
+                f"{self.kind} {name!r} has no method {missing[0]!r}; a {self.kind} needs {needs}"
+            )
         return part  # type: ignore[no-any-return]

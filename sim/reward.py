@@ -24,8 +24,8 @@ class Reward:
 
     - human: dt (v_path/pace - |F|^2/F_0^2 - 2 max(0, 1 - c/c_0)): walk on, with little effort,
       and keep away from what is in the way, the puddle included;
-    - automation: dt (1 - e^2 - (v/pace - 1)^2 - |F|^2/F_0^2): keep to the path and the pace, and
-      do not make the human push;
+    - automation: dt (v_path/pace - e^2 - (v/pace - 1)^2 - |F|^2/F_0^2): get on, keep to the
+      path and the pace, and do not make the human push;
     - both: -10 for a collision, +1 for arriving.
 
     Parameters
@@ -65,8 +65,9 @@ class Reward:
         fx, fy = state.force_on_base.mean(axis=0).tolist()
         effort = (fx * fx + fy * fy) / FORCE_SCALE**2
         closeness = max(0.0, 1.0 - clearance / COMFORT)
-        human = speed * math.cos(heading) / self._pace - effort - 2.0 * closeness
-        automation = 1.0 - offset**2 - (speed / self._pace - 1.0) ** 2 - effort
+        progress = speed * math.cos(heading) / self._pace
+        human = progress - effort - 2.0 * closeness
+        automation = progress - offset**2 - (speed / self._pace - 1.0) ** 2 - effort
         end = ARRIVAL * goal - FAILURE * collision
         return {
             "human": self._period * human + end,

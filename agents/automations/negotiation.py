@@ -73,7 +73,7 @@ class NegotiatingAutomation(ABC):
     def _negotiate(self, observation: Observation) -> Array:
         twist = observation["twist"]
         force = mean_force(observation["force"], observation.get("force_valid"))
-        pose = self._situation.path.absolute_pose(observation["pose"])
+        pose = observation["pose_world"]
         if self._count == 0:
             self._wish_before = twist
             self._loss = np.zeros(twist.shape[:-1])

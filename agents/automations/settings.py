@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
 from cowalk.sim.errors import InputError
 
 
@@ -31,6 +33,11 @@ class NegotiationSettings:
         Force in N below which no wish is read.
     sensitivity : (float, float)
         f_v and f_omega: share of the upper bound that a full force asks for.
+
+    Raises
+    ------
+    InputError
+        If a value is out of its range.
     """
 
     dimensions: Literal["omega", "both"] = "omega"
@@ -42,6 +49,17 @@ class NegotiationSettings:
     force_max: tuple[float, float] = (7.5, 7.5)
     force_threshold: tuple[float, float] = (0.0, 0.0)
     sensitivity: tuple[float, float] = (0.5, 0.5)
+
+    def __post_init__(self) -> None:
+        for names, holds, what in (
+            (("period", "horizon", "distance_weight", "force_max"), np.greater, "above 0"),
+            (("speed_weight", "turn_weight"), np.greater_equal, "at least 0"),
+            (("force_threshold", "sensitivity"), np.greater_equal, "at least 0"),
+        ):
+            for name in names:
+                value = getattr(self, name)
+                if not np.all(holds(value, 0.0)):
+                    raise InputError(f"{name} = {value}: must be {what}")
 
     def steps(self, control_period: float) -> int:
         """Return the number of control steps between negotiations.

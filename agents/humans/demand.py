@@ -20,7 +20,8 @@ from cowalk.agents.interfaces import Observation, Situation, Truth
 from cowalk.sim.errors import InputError
 from cowalk.sim.motion import Array
 
-from .intention import Intention, IntentionSettings
+from .elementwise import Elementwise, Value, components
+from .intention import Intention, IntentionSettings, Outlook
 
 Pair = tuple[float, float]
 
@@ -29,6 +30,20 @@ def require(part: object, name: str, holds: bool, what: str) -> None:
     """Raise `InputError` naming a parameter of a part and its value, unless a condition holds."""
     if not holds:
         raise InputError(f"{name} = {getattr(part, name)}: {what}")
+
+
+def require_share(part: object, *names: str) -> None:
+    """Raise `InputError` unless each of a part's parameters, a number or a pair, is in [0, 1]."""
+    for name in names:
+        value = np.asarray(getattr(part, name))
+        within = bool(((value >= 0.0) & (value <= 1.0)).all())
+        require(part, name, within, "must lie in [0, 1]")
+
+
+def require_positive(part: object, *names: str) -> None:
+    """Raise `InputError` unless each of a part's parameters, a number or a pair, is above 0."""
+    for name in names:
+        require(part, name, bool(np.all(np.asarray(getattr(part, name)) > 0.0)), "must be above 0")
 
 
 @dataclass(kw_only=True)
@@ -50,41 +65,72 @@ class DemandingHuman(ABC):
     intention: IntentionSettings = field(default_factory=IntentionSettings)
 
     def __post_init__(self) -> None:
-        require(
-            self,
-            "force_max",
-            min(self.force_max) > 0.0,
-            "both must be above 0 N",
-        )
-        require(self, "gain", self.gain > 0.0, "must be above 0")
+        require_positive(self, "force_max", "gain")
 
     @abstractmethod
-    def stubbornness(self, disagreement: Array) -> Array:
-        """Return this control step's stubbornness, in [0, 1], shape (..., 2).
+    def stubbornness(self, m: Elementwise, i: int, disagreement: Value) -> Value:
+        """Return this control step's stubbornness in one dimension, in [0, 1].
 
         Parameters
         ----------
-        disagreement : ndarray, shape (..., 2)
-            (p_H - p_executed) / p_ub.
+        m : Elementwise
+            Functions for this human's or this batch's values.
+        i : int
+            0 for v, 1 for omega.
+        disagreement : float, or ndarray of shape (...)
+            (p_H - p_executed) / p_ub in this dimension.
         """
+
+    def wish(self, outlook: Outlook, observation: Observation) -> tuple[Value, Value]:
+        """Return p_H: the v and omega wanted, m/s and rad/s. The intention's, unless overridden."""
+        return self._intention.twist(outlook)
 
     def reset(self, rng: np.random.Generator, situation: Situation) -> None:
         """See `Human.reset`."""
         self.period = situation.period
-        self._upper = np.asarray(situation.bounds.upper, dtype=float)
-        self._force_max = np.asarray(self.force_max, dtype=float)
+        self._upper = components(situation.bounds.upper)
+        self._executed: tuple[Value, Value] = (0.0, 0.0)
         self._intention = Intention(self.intention, situation)
         self._truth = Truth(np.zeros(2), np.zeros(2))
 
     def act(self, observation: Observation) -> Array:
         """See `Human.act`."""
-        wish = self._intention.wish(observation)
-        disagreement = (wish - observation["twist"]) / self._upper
-        share = self.stubbornness(disagreement)
-        self._truth = Truth(wish, share)
-        demand = np.clip(self.gain * share * disagreement, -1.0, 1.0)
-        return np.asarray(self._force_max * demand)
+        outlook = self._intention.look(observation)
+        m, twist = outlook.m, observation["twist"]
+        v, omega = self._executed = tuple(m.parts(twist))
+        wish_v, wish_omega = self.wish(outlook, observation)
+        missing_v = (wish_v - v) / self._upper[0]
+        missing_omega = (wish_omega - omega) / self._upper[1]
+        share_v = self.stubbornness(m, 0, missing_v)
+        share_omega = self.stubbornness(m, 1, missing_omega)
+        self._truth = Truth(m.pair(twist, wish_v, wish_omega), m.pair(twist, share_v, share_omega))
+        return m.pair(
+            twist,
+            self.force_max[0] * m.clip(self.gain * share_v * missing_v, -1.0, 1.0),
+            self.force_max[1] * m.clip(self.gain * share_omega * missing_omega, -1.0, 1.0),
+        )
 
     def truth(self) -> Truth:
         """See `Human.truth`."""
         return self._truth
+
+
+def prescribed_truth(
+    force: Array, twist: Array, upper: Array, force_max: Pair, gain: float
+) -> Truth:
+    """Return the truth of a human whose force is given and tells no wish.
+
+    It is that of the common definition in a disagreement as large as the force can express:
+    s = |F|/F_max, and p_H lies p_ub/gain beyond the executed twist, on the force's side.
+
+    Parameters
+    ----------
+    force, twist : ndarray, shape (..., 2)
+        N; executed, m/s and rad/s.
+    upper : ndarray, shape (..., 2)
+        Upper bounds of the twist, m/s and rad/s.
+    force_max, gain
+        See `DemandingHuman`.
+    """
+    share = np.minimum(np.abs(force) / force_max, 1.0)
+    return Truth(twist + np.sign(force) * upper / gain, share)

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from cowalk.agents.interfaces import Situation
-from cowalk.sim.motion import Array
 
-from .demand import DemandingHuman, Pair, require
+from .demand import DemandingHuman, Pair, require, require_positive, require_share
+from .elementwise import Elementwise, Value
 
 
 @dataclass(kw_only=True)
@@ -57,10 +57,8 @@ class EscalatingHuman(DemandingHuman):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        within = all(0.0 <= share <= 1.0 for share in self.initial)
-        require(self, "initial", within, "both must lie in [0, 1]")
-        for name in ("turn", "relaxation", "tolerance"):
-            require(self, name, getattr(self, name) > 0.0, "must be above 0")
+        require_share(self, "initial")
+        require_positive(self, "turn", "relaxation", "tolerance")
         for name in ("growth", "hold"):
             require(self, name, getattr(self, name) >= 0.0, "must not be negative")
 
@@ -69,18 +67,16 @@ class EscalatingHuman(DemandingHuman):
         super().reset(rng, situation)
         self._growth = math.log1p(self.growth) * self.period / self.turn
         self._decay = -math.expm1(-self.period / self.relaxation)
-        self._initial = np.asarray(self.initial, dtype=float)
-        self._level = self._initial
-        self._since_unresolved = np.full(2, np.inf)
+        self._level: list[Value] = list(self.initial)
+        self._since_unresolved: list[Value] = [math.inf, math.inf]
 
-    def stubbornness(self, disagreement: Array) -> Array:
+    def stubbornness(self, m: Elementwise, i: int, disagreement: Value) -> Value:
         """See `DemandingHuman.stubbornness`."""
-        unresolved = np.minimum(np.abs(disagreement) / self.tolerance, 1.0)
-        self._since_unresolved = np.where(
-            unresolved >= 1.0, 0.0, self._since_unresolved + self.period
-        )
-        relaxing = (1.0 - unresolved) * (self._since_unresolved > self.hold)
-        level = self._level * np.exp(self._growth * unresolved)
-        level = level - self._decay * relaxing * (level - self._initial)
-        self._level = np.minimum(level, 1.0)
-        return self._level
+        unresolved = m.minimum(abs(disagreement) / self.tolerance, 1.0)
+        since = m.where(unresolved >= 1.0, 0.0, self._since_unresolved[i] + self.period)
+        relaxing = (1.0 - unresolved) * (since > self.hold)
+        level = self._level[i] * m.exp(self._growth * unresolved)
+        level = level - self._decay * relaxing * (level - self.initial[i])
+        self._since_unresolved[i] = since
+        self._level[i] = m.minimum(level, 1.0)
+        return self._level[i]

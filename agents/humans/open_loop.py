@@ -10,17 +10,15 @@ import numpy as np
 from cowalk.agents.interfaces import Observation, Situation, Truth
 from cowalk.sim.motion import Array
 
-from .demand import Pair, require
+from .demand import Pair, prescribed_truth, require, require_positive
 
 
 @dataclass(kw_only=True)
 class OpenLoopHuman:
     """Exerts a force that is a step function of time (arXiv 2407.17275, section IV).
 
-    Nothing in a prescribed force tells what its author wanted. The truth reported is that of
-    a human of the common definition (`cowalk.agents.humans.demand`) in a disagreement as
-    large as the force can express: s = |F|/F_max, and p_H lies p_ub/gain beyond the executed
-    twist, on the force's side.
+    Nothing in a prescribed force tells what its author wanted: its truth is that of
+    `cowalk.agents.humans.demand.prescribed_truth`.
 
     Parameters
     ----------
@@ -34,7 +32,7 @@ class OpenLoopHuman:
     Raises
     ------
     InputError
-        If the times do not rise.
+        If the times do not rise, or ``force_max`` or ``gain`` is not above 0.
     """
 
     closed_loop: ClassVar[bool] = False
@@ -44,6 +42,7 @@ class OpenLoopHuman:
     gain: float = 2.0
 
     def __post_init__(self) -> None:
+        require_positive(self, "force_max", "gain")
         table = np.asarray(self.profile, dtype=float).reshape(-1, 3)
         rising = bool(np.all(np.diff(table[:, 0]) > 0.0))
         require(self, "profile", rising, "each time must be later than the one before")
@@ -60,9 +59,9 @@ class OpenLoopHuman:
         # Control times are sums of periods: 12 s must count as 12 s in spite of rounding.
         now = observation["time"][..., 0] + 1e-9
         force = self._forces[np.searchsorted(self._times, now, side="right")]
-        share = np.minimum(np.abs(force) / self.force_max, 1.0)
-        wish = observation["twist"] + np.sign(force) * self._upper / self.gain
-        self._truth = Truth(wish, share)
+        self._truth = prescribed_truth(
+            force, observation["twist"], self._upper, self.force_max, self.gain
+        )
         return np.asarray(force)
 
     def truth(self) -> Truth:

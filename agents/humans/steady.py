@@ -4,11 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
-from cowalk.sim.motion import Array
-
-from .demand import DemandingHuman, Pair, require
+from .demand import DemandingHuman, Pair, require_share
+from .elementwise import Elementwise, Value
 
 
 @dataclass(kw_only=True)
@@ -34,8 +31,8 @@ class SteadyHuman(DemandingHuman):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        require(self, "level", all(0.0 <= s <= 1.0 for s in self.level), "both must lie in [0, 1]")
+        require_share(self, "level")
 
-    def stubbornness(self, disagreement: Array) -> Array:
+    def stubbornness(self, m: Elementwise, i: int, disagreement: Value) -> Value:
         """See `DemandingHuman.stubbornness`."""
-        return np.broadcast_to(self.level, disagreement.shape)
+        return self.level[i]

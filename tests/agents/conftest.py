@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from cowalk.agents import HUMANS
 from cowalk.agents.interfaces import Situation
 from cowalk.sim.motion import Path, TwistBounds
 
@@ -24,8 +25,20 @@ def observe():
             "twist": np.array(twist, dtype=float),
             "force": np.tile(np.array(force, dtype=float), (12, 1)),
             "pose": np.array(pose, dtype=float),
+            "pose_world": np.array(pose, dtype=float),  # the path is the world's x axis
             "obstacles": rows,
             "time": np.array([time]),
         }
 
     return make
+
+
+@pytest.fixture
+def new_human(stand_in_recording):
+    """Build a registered human by name; what has no default gets a stand-in."""
+    needed = {"recorded": {"file": str(stand_in_recording)}}
+
+    def build(name, **parameters):
+        return HUMANS.get(name)(**needed.get(name, {}), **parameters)
+
+    return build

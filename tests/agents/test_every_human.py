@@ -23,8 +23,8 @@ def play(human, situation, observe, seed=0, steps=80, gain=1.0):
 
 
 @pytest.mark.parametrize("name", ALL)
-def test_force_and_truth_are_finite_and_of_the_right_shape(name, situation, observe):
-    forces, truths = play(HUMANS.get(name)(), situation, observe)
+def test_force_and_truth_are_finite_and_of_the_right_shape(name, situation, observe, new_human):
+    forces, truths = play(new_human(name), situation, observe)
     assert forces.shape == (80, 2)
     assert truths.shape == (80, 4)
     assert np.isfinite(forces).all()
@@ -34,54 +34,74 @@ def test_force_and_truth_are_finite_and_of_the_right_shape(name, situation, obse
 
 
 @pytest.mark.parametrize("name", ALL)
-def test_reset_with_the_same_generator_repeats_bit_for_bit(name, situation, observe):
-    human = HUMANS.get(name)()
+def test_reset_with_the_same_generator_repeats_bit_for_bit(name, situation, observe, new_human):
+    human = new_human(name)
     first = play(human, situation, observe)
     again = play(human, situation, observe)
-    fresh = play(HUMANS.get(name)(), situation, observe)
+    fresh = play(new_human(name), situation, observe)
     for a, b, c in zip(first, again, fresh, strict=True):
         assert a.tobytes() == b.tobytes() == c.tobytes()
 
 
 @pytest.mark.parametrize("name", ALL)
-def test_global_random_state_is_left_alone(name, situation, observe):
+def test_global_random_state_is_left_alone(name, situation, observe, new_human):
     before = np.random.get_state()[1].copy()  # noqa: NPY002 - the global state is the subject
-    play(HUMANS.get(name)(), situation, observe)
+    play(new_human(name), situation, observe)
     np.testing.assert_array_equal(before, np.random.get_state()[1])  # noqa: NPY002
 
 
 @pytest.mark.parametrize("name", ALL)
-def test_the_force_answers_the_motion_unless_the_model_says_otherwise(name, situation, observe):
-    human = HUMANS.get(name)()
+def test_the_force_answers_the_motion_unless_the_model_says_otherwise(
+    name, situation, observe, new_human
+):
+    human = new_human(name)
     forces, _ = play(human, situation, observe)
     calmer, _ = play(human, situation, observe, gain=0.2)
     assert (forces != calmer).any() == getattr(human, "closed_loop", True)
 
 
 @pytest.mark.parametrize("name", ALL)
-def test_force_follows_from_the_truth_by_the_common_definition(name, situation, observe):
-    human = HUMANS.get(name)()
+def test_force_follows_from_the_truth_by_the_common_definition(name, situation, observe, new_human):
+    """The definition holds for every step of a walk that pulls the human in all directions."""
+    human = new_human(name)
     human.reset(np.random.default_rng(0), situation)
-    for omega in np.linspace(-0.5, 0.5, 21):
-        force = human.act(observe(twist=(0.7, omega), obstacles=PUDDLE))
+    rng = np.random.default_rng(1)
+    for k in range(200):
+        twist = rng.uniform(situation.bounds.lower, situation.bounds.upper)
+        pose = (0.04 * k, 0.6 * np.sin(0.05 * k), 0.4 * np.cos(0.03 * k))
+        force = human.act(observe(twist=twist, pose=pose, obstacles=PUDDLE, time=0.05 * k))
         truth = human.truth()
-        missing = (truth.wish - [0.7, omega]) / np.array(situation.bounds.upper)
-        expected = 7.5 * np.clip(human.gain * truth.stubbornness * missing, -1.0, 1.0)
-        np.testing.assert_allclose(force, expected, atol=1e-12)
+        missing = (truth.wish - twist) / np.array(situation.bounds.upper)
+        demand = np.clip(human.gain * truth.stubbornness * missing, -1.0, 1.0)
+        np.testing.assert_allclose(force, np.multiply(human.force_max, demand), atol=1e-9)
+        assert ((truth.stubbornness >= 0.0) & (truth.stubbornness <= 1.0)).all()
 
 
 @pytest.mark.parametrize("name", ALL)
-def test_a_batch_of_humans_is_as_many_humans(name, situation, observe):
-    human = HUMANS.get(name)()
-    twists = np.random.default_rng(0).uniform([0.2, -0.4], [1.0, 0.4], size=(5, 2))
+def test_a_batch_of_humans_is_as_many_humans(name, situation, observe, new_human):
+    human = new_human(name)
+    if not getattr(human, "broadcasts", True):
+        pytest.skip(f"{name} says that it does not broadcast")
+    rng = np.random.default_rng(0)
+    lanes = 5
+    twists = rng.uniform([0.2, -0.4], [1.0, 0.4], size=(lanes, 2))
+    offsets = rng.uniform(-0.5, 0.5, size=lanes)
+    steps = 12  # fewer than a turn: what chance decides is not drawn yet
     single = []
-    for twist in twists:
+    for twist, offset in zip(twists, offsets, strict=True):
         human.reset(np.random.default_rng(0), situation)
-        single.append([human.act(observe(twist=twist, obstacles=PUDDLE)) for _ in range(4)])
-    one = observe(obstacles=PUDDLE)
-    batch = {key: np.repeat(value[None], 5, axis=0) for key, value in one.items()} | {
-        "twist": twists
-    }
+        forces = [
+            human.act(observe(twist, pose=(k, offset, 0.1), obstacles=PUDDLE, time=0.05 * k))
+            for k in range(steps)
+        ]
+        single.append(np.vstack((forces, human.truth().wish, human.truth().stubbornness)))
     human.reset(np.random.default_rng(0), situation)
-    together = np.array([human.act(batch) for _ in range(4)])
-    np.testing.assert_allclose(together, np.swapaxes(single, 0, 1), atol=1e-12)
+    together = []
+    for k in range(steps):
+        one = observe(obstacles=PUDDLE, time=0.05 * k)
+        batch = {key: np.repeat(value[None], lanes, axis=0) for key, value in one.items()}
+        batch["pose"] = np.column_stack((np.full(lanes, k), offsets, np.full(lanes, 0.1)))
+        together.append(human.act(batch | {"twist": twists}))
+    truth = human.truth()
+    together += [truth.wish, truth.stubbornness]
+    np.testing.assert_allclose(together, np.swapaxes(single, 0, 1), atol=1e-9)

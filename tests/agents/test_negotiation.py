@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import minimize
 
+from cowalk.agents import AUTOMATIONS
 from cowalk.agents.automations.constant import AlwaysYields, NeverYields
 from cowalk.agents.automations.planner import PROBLEMS, minimise
 from cowalk.agents.automations.settings import NegotiationSettings
@@ -13,7 +14,7 @@ from cowalk.agents.automations.stubbornness import StubbornnessAutomation
 from cowalk.agents.automations.utility import negotiated, utility
 from cowalk.agents.interfaces import Situation
 from cowalk.sim.errors import InputError
-from cowalk.sim.motion import Path, TwistBounds
+from cowalk.sim.motion import Path, TwistBounds, arc_displacement, compose
 
 BOUNDS = TwistBounds((0.0, -0.5), (1.2, 0.5))
 SITUATION = Situation(Path(((0.0, 0.0), (30.0, 0.0))), 0.8, BOUNDS, 0.05)
@@ -128,6 +129,47 @@ def test_a_period_that_does_not_fit_the_control_period_is_refused_with_both_numb
     automation = StubbornnessAutomation(negotiation=NegotiationSettings(period=0.72))
     with pytest.raises(InputError, match=r"0\.72 s .* 0\.05 s; 0\.7 would be"):
         automation.reset(np.random.default_rng(0), SITUATION)
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("horizon", 0.0),
+        ("horizon", -2.0),
+        ("period", 0.0),
+        ("distance_weight", -1.0),
+        ("turn_weight", -0.1),
+        ("force_max", (0.0, 7.5)),
+        ("force_threshold", (-1.0, 0.0)),
+    ],
+)
+def test_impossible_settings_are_named(name, value):
+    with pytest.raises(InputError, match=rf"^{name} = "):
+        NegotiationSettings(**{name: value})
+
+
+@pytest.mark.parametrize("name", ["never-yields", "stubbornness"])
+def test_the_wish_on_a_bent_path_turns_with_it(name):
+    bent = Situation(Path(((0.0, 0.0), (5.0, 0.0), (5.0, 20.0))), 0.8, BOUNDS, 0.05)
+    automation = AUTOMATIONS.get(name)()
+    automation.reset(np.random.default_rng(0), bent)
+    pose = np.zeros(3)
+    twist = np.zeros(2)
+    for _ in range(500):
+        twist = automation.act(
+            {
+                "twist": twist,
+                "force": np.zeros((1, 2)),
+                "pose": bent.path.relative_pose(pose),
+                "pose_world": pose,
+                "obstacles": np.zeros((8, 4)),
+                "time": np.zeros(1),
+            }
+        )
+        pose = compose(pose, arc_displacement(twist, 0.05))
+    assert pose[1] > 8.0
+    assert abs(pose[0] - 5.0) < 0.1
+    assert pose[2] == pytest.approx(np.pi / 2, abs=0.1)
 
 
 def test_an_empty_range_of_interaction_is_refused():

@@ -2,6 +2,8 @@ import sys
 
 import pytest
 
+from cowalk.scenarios import cli
+
 WALK = """\
 name: walk
 duration: 3.0
@@ -79,3 +81,16 @@ def scenario_file(folder):
         return file
 
     return write
+
+
+@pytest.fixture
+def cowalk(monkeypatch, capfd):
+    """Run the command; return exit code, standard output and standard error."""
+
+    def call(*arguments):
+        monkeypatch.setattr(sys, "argv", ["cowalk", *map(str, arguments)])
+        with pytest.raises(SystemExit) as end:
+            cli.main()
+        return end.value.code, *capfd.readouterr()
+
+    return call

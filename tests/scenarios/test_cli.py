@@ -9,21 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from cowalk.scenarios import calibration, cli, compare, paper
+from cowalk.scenarios import calibration, compare, paper
 from cowalk.scenarios.results import Trace
-
-
-@pytest.fixture
-def cowalk(monkeypatch, capfd):
-    """Run the command; return exit code, standard output and standard error."""
-
-    def call(*arguments):
-        monkeypatch.setattr(sys, "argv", ["cowalk", *map(str, arguments)])
-        with pytest.raises(SystemExit) as end:
-            cli.main()
-        return end.value.code, *capfd.readouterr()
-
-    return call
 
 
 @pytest.fixture
@@ -72,7 +59,18 @@ def test_help_imports_nothing_heavy():
 
 
 @pytest.mark.parametrize(
-    "command", ["run", "list", "check", "paper", "compare", "compare smoothers"]
+    "command",
+    [
+        "run",
+        "list",
+        "check",
+        "paper",
+        "compare",
+        "compare smoothers",
+        "humans sample",
+        "humans show",
+        "humans table",
+    ],
 )
 def test_every_command_explains_itself(cowalk, command):
     code, out, _ = cowalk(*command.split(), "--help")
@@ -242,12 +240,14 @@ def test_paper_prints_rows_constants_and_the_verdict(cowalk, monkeypatch, passed
 def test_paper_searches_with_the_seed_given(cowalk, monkeypatch):
     def search(seed, progress):
         progress(1, 2)
-        return {"tau, s": float(seed)}, _rows(True)
+        return {"horizon tau, s": float(seed)}, _rows(True)
 
     monkeypatch.setattr(calibration, "calibrate", search)
     code, out, _ = cowalk("paper", "--calibrate", "--seed", 3, "--json")
     assert code == 0
-    assert json.loads(out)["inferred"] == {"tau, s": 3.0}
+    assert json.loads(out)["inferred"] == {"horizon tau, s": 3.0}
+    _, out, _ = cowalk("paper", "--calibrate", "--seed", 3)
+    assert "--set 'automation.negotiation.horizon=3'" in out
 
 
 def test_compare_shows_whatever_scores_there_are(cowalk, scenario_file, monkeypatch):

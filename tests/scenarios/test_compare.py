@@ -16,6 +16,7 @@ def test_every_smoother_is_scored_the_papers_first():
     assert all(score.runs == 2 for score in scores)
     assert all(0.0 < score.rmse < 1.0 for score in scores)
     assert all(score.rmse_spread > 0.0 for score in scores)
+    assert all(score.delay >= 0.0 for score in scores)  # each smoother is causal
     total = 2 * len(scores)
     assert calls == [(done, total) for done in range(1, total + 1)]
 

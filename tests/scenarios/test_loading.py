@@ -234,7 +234,7 @@ def test_a_swapped_part_keeps_its_section_but_not_its_parameters(scenario_file):
         ("human.parameters.gian=1", "did you mean 'gain'?"),
         ("human.parameters.gain=abc", "a number is expected, not text"),
         ("human.parameters.gain=true", "not true or false"),
-        ("human=foo", "unknown human 'foo'; Known: escalating, open-loop, steady"),
+        ("human=foo", "unknown human 'foo'; Known: bounded-memory, conceding"),
         ("world.path.points.2.0=1", "world.path.points has 2 entries, 0 to 1; '2' is none"),
         ("name.x=1", "name is 'walk', there is nothing inside it"),
         ("rates.control=7", "is not a whole multiple"),

@@ -3,8 +3,10 @@ import pytest
 
 from cowalk.scenarios.metrics import metrics
 from cowalk.scenarios.results import UNITS
+from cowalk.sim.motion import Path
 
 PERIOD = 0.05
+PATH = Path(((0.0, 0.0), (10.0, 0.0)))
 
 
 def columns(rows=200, **given):
@@ -15,7 +17,7 @@ def columns(rows=200, **given):
 
 
 def value(name, **given):
-    return metrics(columns(**given), PERIOD)[name]["value"]
+    return metrics(columns(**given), PERIOD, PATH)[name]["value"]
 
 
 def test_effort_and_work_of_a_constant_push():

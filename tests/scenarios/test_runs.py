@@ -42,10 +42,13 @@ def test_every_scenario_repeats_bit_for_bit_in_another_process(name):
 @pytest.mark.parametrize("plant", PLANTS.names())
 @pytest.mark.parametrize("human", HUMANS.names())
 @pytest.mark.parametrize("automation", AUTOMATIONS.names())
-def test_every_human_meets_every_automation_on_every_plant(plant, human, automation):
-    trace = trace_of(
-        "puddle", f"plant={plant}", f"human={human}", f"automation={automation}", "duration=4"
-    )
+def test_every_human_meets_every_automation_on_every_plant(
+    plant, human, automation, stand_in_recording
+):
+    parts = [f"plant={plant}", f"human={human}", f"automation={automation}"]
+    if human == "recorded":  # the one model without a default for everything
+        parts.append(f"human.parameters.file={stand_in_recording}")
+    trace = trace_of("puddle", *parts, "duration=4")
     assert len(trace) == 80
     assert np.isfinite(trace.values).all()
 
@@ -81,7 +84,41 @@ def test_an_automation_that_never_yields_changes_the_humans_force(puddle):
     assert mean[1] > 1.15 * mean[0]
 
 
+REUSED = """
+import numpy as np
+from cowalk.agents import Belief
+
+class Counting:
+    def reset(self, rng, situation): self.now = Belief()
+    def act(self, observation):
+        self.now.negotiation += 1
+        return np.array([0.8, 0.0])
+    def belief(self): return self.now
+"""
+
+
+def test_a_belief_object_that_is_used_again_is_read_again(tmp_path, monkeypatch):
+    (tmp_path / "counting.py").write_text(REUSED)
+    monkeypatch.syspath_prepend(tmp_path)
+    overrides = ["automation=counting:Counting", "plant=unicycle", "duration=2", "expect={}"]
+    result = run(load("puddle", overrides))
+    np.testing.assert_array_equal(result.trace["negotiation"], np.arange(1, 41))
+    assert result.write(tmp_path / "run").exists()  # its other beliefs are NaN
+
+
+def test_the_trace_holds_the_force_that_acted(tmp_path, monkeypatch):
+    (tmp_path / "strong.py").write_text(
+        BROKEN.replace("np.array([0.0, np.nan])", "np.full(2, 1e6)")
+    )
+    monkeypatch.syspath_prepend(tmp_path)
+    overrides = ["human=strong:NotANumber", "plant=unicycle", "duration=2", "force_limit=12"]
+    trace = trace_of("puddle", *overrides)
+    np.testing.assert_array_equal(trace["fx_intent"][30:], 12.0)
+
+
 def test_the_seed_matters_and_the_noise_is_the_sensors():
+    quiet = [trace_of("puddle", f"seed={seed}", "sensor.noise_density=0.0") for seed in (1, 2)]
+    assert quiet[0].values.tobytes() == quiet[1].values.tobytes()
     one, two = trace_of("puddle", "seed=1"), trace_of("puddle", "seed=2")
     same = trace_of("puddle", "seed=2")
     assert one.values.tobytes() != two.values.tobytes()
@@ -135,18 +172,31 @@ class Infinite(Base):
 class Raises(Base):
     def force(self): raise ZeroDivisionError("division by zero")
 
+class Exits(Base):
+    def force(self): raise SystemExit(5)
+
 class ThreeNumbers(Base):
     def force(self): return np.zeros(3)
+
+class AScalar(Base):
+    def force(self): return 1.0
+
+class NoTruth(Base):
+    def force(self): return np.zeros(2)
+    def truth(self): return super().truth() if self.count <= 30 else None
 """
 
 
 @pytest.mark.parametrize(
     ("name", "said"),
     [
-        ("NotANumber", "the human's force is [0.0, nan] at t = 1.5 s"),
-        ("Infinite", "the human's force is [inf, 0.0] at t = 1.5 s"),
-        ("Raises", "human 'broken_humans:Raises' failed at t = 1.5 s: ZeroDivisionError"),
-        ("ThreeNumbers", "it must be 2 numbers"),
+        ("NotANumber", "at t = 1.5 s: act() gave [0.0, nan]; the force [fx, fy] in N must be fin"),
+        ("Infinite", "at t = 1.5 s: act() gave [inf, 0.0]"),
+        ("Raises", "failed at t = 1.5 s: ZeroDivisionError"),
+        ("Exits", "failed at t = 1.5 s: SystemExit"),
+        ("ThreeNumbers", "act() gave an array of shape (3,); it must be the force"),
+        ("AScalar", "act() gave 1.0; it must be the force [fx, fy] in N"),
+        ("NoTruth", "truth() gave None; it must be a Truth"),
     ],
 )
 def test_a_run_that_dies_midway_says_why_and_keeps_its_trace(name, said, tmp_path, monkeypatch):
@@ -154,6 +204,8 @@ def test_a_run_that_dies_midway_says_why_and_keeps_its_trace(name, said, tmp_pat
     monkeypatch.syspath_prepend(tmp_path)
     result = run(load("puddle", [f"human=broken_humans:{name}", "plant=unicycle"]))
     assert said in result.error
+    assert result.error.startswith(f"human 'broken_humans:{name}' ")
+    assert "\n" not in result.error
     assert result.summary["end"] == "aborted"
     assert len(result.trace) == 30
     assert not result.passed

@@ -123,6 +123,24 @@ def test_rewards_prefer_walking_without_effort_and_out_of_the_puddle():
     assert calm["automation"] > waiting["automation"]
 
 
+def test_neither_seat_is_paid_for_dawdling():
+    short = World(Path(((0.0, 0.0), (8.0, 0.0))))
+    returns = {
+        speed: walk(parallel_env(short, plant="unicycle", duration=40.0), (speed, 0.0))[0]
+        for speed in (0.3, 0.6, 0.8)
+    }
+    assert returns[0.3]["automation"] < returns[0.6]["automation"] < returns[0.8]["automation"]
+    assert returns[0.3]["human"] <= returns[0.8]["human"] + 0.05
+
+
+def test_stepping_without_an_episode_and_unknown_render_modes_are_refused():
+    env = parallel_env(plant="unicycle")
+    with pytest.raises(SimulationError, match="call reset before step"):
+        env.step({"human": np.zeros(2), "automation": np.zeros(2)})
+    with pytest.raises(InputError, match="render_mode = 'foo'"):
+        parallel_env(plant="unicycle", render_mode="foo")
+
+
 @pytest.mark.parametrize("seat", ["human", "automation"])
 @pytest.mark.parametrize("bad", [np.nan, np.inf])
 def test_an_action_that_is_not_finite_is_named(seat, bad):

@@ -83,6 +83,15 @@ def test_relative_pose_by_hand(pose, expected):
     np.testing.assert_allclose(BENT.relative_pose(pose), expected, atol=1e-12)
 
 
+@given(arrays(float, 2, elements=st.floats(-12.0, 18.0)))
+def test_the_offset_is_the_distance_from_the_path_outside_its_corners_too(position):
+    station, offset, _ = BENT.relative_pose([*position, 0.0])
+    on_path = BENT.point_at(np.linspace(-30.0, 40.0, 7001))
+    nearest = np.hypot(*(on_path - position).T).min()
+    assert abs(offset) == pytest.approx(nearest, abs=0.01)
+    assert np.hypot(*(BENT.point_at(station) - position)) == pytest.approx(nearest, abs=0.01)
+
+
 @given(st.floats(-3.0, 12.0), st.floats(-1.0, 1.0), st.floats(-1.0, 1.0))
 def test_absolute_pose_inverts_relative_pose_on_a_straight_path(station, offset, heading):
     straight = Path(((1.0, 2.0), (4.0, 6.0)))

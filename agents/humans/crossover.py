@@ -1,0 +1,73 @@
+"""McRuer's crossover model: a human who makes the loop with the base an integrator with delay."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+
+import numpy as np
+
+from cowalk.agents.interfaces import Observation, Situation
+
+from .demand import require, require_positive
+from .elementwise import Value
+from .intention import Outlook
+from .linear import LinearHuman
+
+
+@dataclass(kw_only=True)
+class CrossoverHuman(LinearHuman):
+    """Pushes so that Y_p Y_c = omega_c e^(-j omega delay) / (j omega).
+
+    People adjust to what they steer until the loop around them crosses over like this (McRuer
+    and Jex 1967). What this human steers is the twist: a push turns the base by a rate of
+    change, Y_c = K/(j omega) with K = steering * p_ub/F_max, so that Y_p is a gain with a delay,
+
+        F(t) = (omega_c/K) (p_I - p_executed)(t - delay),
+
+    p_I being what the intention wants.
+
+    Parameters
+    ----------
+    crossover_frequency : float
+        omega_c in rad/s; 2 to 5 in McRuer and Jex 1967.
+    delay : float
+        Effective time delay, s; 0.15 to 0.3 in McRuer and Jex 1967. Rounded to control steps.
+    steering : float
+        How fast the largest force changes the twist, upper bounds a second. Inferred: the
+        shipped drive turns by at most 2 of them a second.
+    force_max, gain, intention
+        See `DemandingHuman`.
+
+    Raises
+    ------
+    InputError
+        If a parameter is outside the range stated.
+    """
+
+    crossover_frequency: float = 3.0
+    delay: float = 0.2
+    steering: float = 2.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        require_positive(self, "crossover_frequency", "steering")
+        require(self, "delay", self.delay >= 0.0, "must not be negative")
+
+    def reset(self, rng: np.random.Generator, situation: Situation) -> None:
+        """See `Human.reset`."""
+        super().reset(rng, situation)
+        steps = round(self.delay / self.period)
+        self._missing: deque[tuple[Value, Value]] = deque([(0.0, 0.0)] * (steps + 1), steps + 1)
+
+    def slope(self, i: int) -> Value:
+        """See `LinearHuman.slope`: omega_c/K."""
+        return self.crossover_frequency * self.force_max[i] / (self.steering * self._upper[i])
+
+    def content(self, outlook: Outlook, observation: Observation) -> tuple[Value, Value]:
+        """See `LinearHuman.content`: what was missing a delay ago is wanted on top of now."""
+        v, omega = self._executed
+        want_v, want_omega = self._intention.twist(outlook)
+        self._missing.append((want_v - v, want_omega - omega))
+        missing_v, missing_omega = self._missing[0]
+        return v + missing_v, omega + missing_omega

@@ -1,0 +1,1 @@
+"""What keeps a body from doing exactly what its model asks: wrappers around any human."""

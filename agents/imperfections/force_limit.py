@@ -1,0 +1,45 @@
+"""Force limit: nobody pushes harder than they can, or dare."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from cowalk.agents.humans.demand import require
+from cowalk.agents.humans.elementwise import elementwise
+from cowalk.agents.interfaces import Observation
+from cowalk.sim.motion import Array
+
+from .wrapper import Imperfection
+
+
+@dataclass
+class ForceLimit(Imperfection):
+    """The force asked for, in its direction, up to a limit.
+
+    Parameters
+    ----------
+    human : Human
+    limit : float
+        Largest magnitude in N. People communicate with up to 30 N
+        (s41598-024-53991-4); a hand led in walking gives about 3 N (fbioe.2025.1622083).
+
+    Raises
+    ------
+    InputError
+        If the limit is not above 0.
+    """
+
+    demonstration: ClassVar[tuple[float, float]] = (8.0, 45.0)
+
+    limit: float = 30.0
+
+    def __post_init__(self) -> None:
+        require(self, "limit", self.limit > 0.0, "must be above 0 N")
+
+    def distort(self, force: Array, observation: Observation) -> Array:
+        """See `Imperfection.distort`."""
+        m = elementwise(force)
+        fx, fy = m.parts(force)
+        share = self.limit / m.maximum(m.sqrt(fx * fx + fy * fy), self.limit)
+        return m.pair(force, fx * share, fy * share)

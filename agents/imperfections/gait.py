@@ -1,0 +1,93 @@
+"""Gait ripple: the trunk sways as it walks, and the arm passes it on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cowalk.agents.humans.demand import require
+from cowalk.agents.humans.elementwise import Value, elementwise
+from cowalk.agents.interfaces import Observation, Situation
+from cowalk.sim.motion import Array
+
+from .wrapper import Imperfection
+
+
+@dataclass
+class GaitRipple(Imperfection):
+    """The sway of a walking trunk through the arm's stiffness, added to the force.
+
+    Fore and aft the trunk sways at the step frequency, sideways at half of it:
+
+        dF = walking stiffness/2 [fore_aft sin(phi), lateral sin(phi/2)], phi = 2 pi f t + phase.
+
+    The defaults are the medians of 110 measured walking trials; their 5 and 95 % are given
+    below. They make +- 3 N, as much as the paper's pushes. It ceases with the walk:
+    ``walking = min(|v|/walking_speed, 1)``. For the unicycle plant; in PyBullet the body
+    makes it.
+
+    Parameters
+    ----------
+    human : Human
+    step_frequency : float
+        Hz; 1.63, 1.82, 2.08.
+    lateral_sway : float
+        Sideways, peak to peak, m; 0.027, 0.060, 0.115.
+    fore_aft_sway : float
+        Fore and aft, peak to peak, m; 0.036, 0.066, 0.159.
+    arm_stiffness : float
+        N/m, about 100. Inferred.
+    walking_speed : float
+        Speed in m/s from which on the gait has its full sway. Inferred.
+
+    Raises
+    ------
+    InputError
+        If a sway or the stiffness is negative, or the frequency is not in (0, 4] Hz.
+    """
+
+    step_frequency: float = 1.82
+    lateral_sway: float = 0.060
+    fore_aft_sway: float = 0.066
+    arm_stiffness: float = 100.0
+    walking_speed: float = 0.4
+
+    def __post_init__(self) -> None:
+        for name in ("lateral_sway", "fore_aft_sway", "arm_stiffness"):
+            require(self, name, getattr(self, name) >= 0.0, "must not be negative")
+        require(self, "step_frequency", 0.0 < self.step_frequency <= 4.0, "must lie in (0, 4] Hz")
+        require(self, "walking_speed", self.walking_speed > 0.0, "must be above 0 m/s")
+
+    def unsuited(self, plant: str, period: float) -> str | None:
+        """See `Imperfection.unsuited`."""
+        if plant == "bullet":
+            return (
+                "gait-ripple is for the unicycle plant; on 'bullet' the body makes it, leave it out"
+            )
+        return None
+
+    def reset(self, rng: np.random.Generator, situation: Situation) -> None:
+        """See `Human.reset`."""
+        super().reset(rng, situation)
+        self._forward = 0.5 * self.arm_stiffness * self.fore_aft_sway
+        self._sideways = 0.5 * self.arm_stiffness * self.lateral_sway
+        self._advance = 2.0 * np.pi * self.step_frequency * situation.period
+        self._phase: Value = None
+        self._count = 0
+
+    def distort(self, force: Array, observation: Observation) -> Array:
+        """See `Imperfection.distort`."""
+        m = elementwise(force)
+        if self._phase is None:
+            # Over two steps, since the first may be a left or a right one.
+            (self._phase,) = m.parts(self._rng.uniform(0.0, 4.0 * np.pi, (*force.shape[:-1], 1)))
+        (fx, fy), (v, _) = m.parts(force), m.parts(observation["twist"])
+        angle = self._advance * self._count + self._phase
+        self._count += 1
+        walking = m.minimum(abs(v) / self.walking_speed, 1.0)
+        return m.pair(
+            force,
+            fx + walking * self._forward * m.sin(angle),
+            fy + walking * self._sideways * m.sin(0.5 * angle),
+        )

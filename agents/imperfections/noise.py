@@ -1,0 +1,39 @@
+"""Signal-dependent motor noise: the harder the push, the less exact."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from cowalk.agents.humans.demand import require
+from cowalk.agents.interfaces import Observation
+from cowalk.sim.motion import Array
+
+from .wrapper import Imperfection
+
+
+@dataclass
+class SignalDependentNoise(Imperfection):
+    """Gaussian noise whose standard deviation grows with the force: sigma = share |F|.
+
+    Drawn anew each control step, for each direction by the force in that direction.
+
+    Parameters
+    ----------
+    human : Human
+    share : float
+        Standard deviation as a share of the force; typically 0.02 to 0.05.
+
+    Raises
+    ------
+    InputError
+        If the share is not in [0, 1].
+    """
+
+    share: float = 0.03
+
+    def __post_init__(self) -> None:
+        require(self, "share", 0.0 <= self.share <= 1.0, "must lie in [0, 1]")
+
+    def distort(self, force: Array, observation: Observation) -> Array:
+        """See `Imperfection.distort`."""
+        return force * (1.0 + self.share * self._rng.standard_normal(force.shape))

@@ -1,0 +1,1 @@
+"""The populations that ship, one ``*.population.yaml`` each."""

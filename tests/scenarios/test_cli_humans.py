@@ -1,0 +1,159 @@
+"""The commands about humans, as a user calls them."""
+
+import json
+import re
+
+import numpy as np
+import pytest
+from matplotlib.image import imread
+
+from cowalk.agents import IMPERFECTIONS
+from cowalk.scenarios.human_answers import answer, fixed_points, push, settled_stubbornness
+from cowalk.scenarios.human_table import compare_humans, estimate, write_table
+from cowalk.scenarios.humans import build_human
+from cowalk.scenarios.loading import load
+from cowalk.scenarios.population import load_population
+from cowalk.scenarios.schema import HumanComponent
+from cowalk.sim.errors import InputError
+
+
+def built(name, **parameters):
+    return build_human(HumanComponent(name=name, parameters=parameters), "unicycle", 0.05)
+
+
+def test_sample_prints_what_the_population_draws(cowalk):
+    code, out, _ = cowalk("humans", "sample", "uncertain", "-n", "3", "--seed", "7", "--json")
+    assert code == 0
+    people = [HumanComponent.model_validate(person) for person in json.loads(out)["humans"]]
+    assert people == load_population("uncertain").draw(3, seed=7)
+    code, out, _ = cowalk("humans", "sample", "uncertain", "-n", "3", "--seed", "7")
+    assert code == 0
+    assert all(person.name in out for person in people)
+
+
+def test_show_draws_a_human(cowalk, tmp_path):
+    file = tmp_path / "deep" / "human.png"
+    code, out, _ = cowalk("humans", "show", "steady", "--imperfection", "tremor", "--out", file)
+    assert code == 0
+    assert "0.50" in out  # the default level
+    assert imread(file).shape == (868, 1400, 4)
+
+
+@pytest.mark.parametrize("name", IMPERFECTIONS.names())
+def test_every_imperfection_is_seen_alone(cowalk, tmp_path, name):
+    file = tmp_path / "alone.png"
+    code, out, _ = cowalk("humans", "show", "--imperfection", name, "--out", file, "--json")
+    assert code == 0
+    assert imread(file).std() > 0.02
+    # What it does is large enough to be seen: tremor, the smallest, is 1 % of 10 N.
+    assert json.loads(out)["largest change"] >= 0.09
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("show",), "name a human model, an --imperfection, or both"),
+        (("show", "stedy"), "unknown human 'stedy'; did you mean 'steady'?"),
+        (("show", "steady", "--imperfection", "tremro"), "did you mean 'tremor'?"),
+        (("show", "steady", "--set", "plant=bullet"), "only keys of human can be set here"),
+        (("show", "steady", "--set", "human.parameters.level=[2,0]"), "level = "),
+        (("sample", "nobody"), "unknown population 'nobody'"),
+    ],
+)
+def test_a_mistake_gets_one_line(cowalk, arguments, message):
+    code, out, error = cowalk("humans", *arguments)
+    assert code == 2
+    assert message in error
+    assert error.count("\n") == 1
+    assert not out
+
+
+def test_check_takes_an_agent(cowalk, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    text = "from cowalk.agents.humans.steady import SteadyHuman\nclass Faulty(SteadyHuman):\n"
+    text += "    def truth(self):\n        return None\n"
+    (tmp_path / "faulty_models.py").write_text(text)
+    code, out, _ = cowalk("check", "faulty_models:Faulty")
+    assert code == 2
+    assert out == (
+        "faulty_models:Faulty: truth returned None: return Truth(wish=..., stubbornness=...)\n"
+    )
+    code, out, _ = cowalk("check", "cowalk.agents.humans.steady:SteadyHuman")
+    assert (code, out) == (0, "cowalk.agents.humans.steady:SteadyHuman: no fault\n")
+
+
+def test_imperfections_and_populations_are_listed(cowalk):
+    for kind, names in (("imperfections", IMPERFECTIONS.names()), ("populations", ["determined"])):
+        code, out, _ = cowalk("list", kind, "--json")
+        assert code == 0
+        described = {entry["name"]: entry["description"] for entry in json.loads(out)[kind]}
+        assert set(names) <= set(described)
+        assert all(described.values())
+
+
+def test_a_steady_human_answers_as_the_definition_says():
+    human = built("steady", level=[0.5, 0.5])
+    unyielding, yielding = answer(human, 0.0), answer(human, 1.0)
+    # gain s (p_H - p_A)/p_ub of 7.5 N, forward: 2 * 0.5 * (0.8 - 0.6)/1.2
+    np.testing.assert_allclose(unyielding.force[:, 0], 7.5 * 0.2 / 1.2)
+    assert np.ptp(unyielding.force[:, 1]) < 1e-12
+    assert np.abs(yielding.force[-20:]).max() < 0.1
+
+
+def test_fixed_points_are_where_the_curves_meet():
+    concessions = np.linspace(0.0, 1.0, 11)
+    assert fixed_points(concessions, 0.75 - 0.5 * concessions) == [pytest.approx(0.5)]
+    assert fixed_points(concessions, np.full(11, 0.3)) == [pytest.approx(0.3)]
+    assert fixed_points(concessions, concessions**2 * 0.0) == [0.0]
+    settled = settled_stubbornness(built("steady", level=[0.2, 0.6]), concessions, seeds=1)
+    assert fixed_points(concessions, settled[:, 1]) == [pytest.approx(0.6)]
+
+
+def test_the_prescribed_push_rises_holds_and_ends():
+    profile = np.array(push(8.0, 10.0))
+    assert profile[:, 2].max() == pytest.approx(10.0)
+    assert (profile[profile[:, 0] > 5.7, 2] == 0.0).all()
+
+
+def test_an_interval_covers_the_mean_as_often_as_it_says():
+    rng = np.random.default_rng(0)
+    hits = [(e := estimate(rng.normal(3.0, 1.0, 30))).low <= 3.0 <= e.high for _ in range(200)]
+    assert 0.88 <= np.mean(hits) <= 0.98  # 95 %, the bootstrap of 30 a little less
+
+
+def test_an_estimate_leaves_out_what_is_not_known():
+    assert estimate(np.array([np.nan, 2.0, 4.0])).mean == 3.0
+    assert estimate(np.array([np.nan, 2.0, 4.0])).runs == 2
+    assert estimate(np.array([2.0, 2.0])).low == estimate(np.array([2.0, 2.0])).high == 2.0
+    assert estimate(np.array([np.nan])).runs == 0
+
+
+def test_the_table_compares_pairs_and_goes_into_a_document(tmp_path):
+    scenario = load("puddle", ["plant=unicycle", "duration=6.0"])
+    pairs = {"humans": ("steady", "slacking"), "automations": ("never-yields", "always-yields")}
+    cells = compare_humans(scenario, 3, jobs=1, **pairs)
+    assert [(cell.human, cell.automation) for cell in cells] == [
+        (human, automation) for human in pairs["humans"] for automation in pairs["automations"]
+    ]
+    for cell in cells:
+        force = cell.metrics["mean force"]
+        assert force.low <= force.mean <= force.high
+        assert cell.metrics["effort"].mean == pytest.approx(6.0 * force.mean)
+    assert cells == compare_humans(scenario, 3, jobs=1, **pairs)
+    file = tmp_path / "humans.md"
+    file.write_text("# Humans\n\n<!-- humans-table -->\nold\n<!-- /humans-table -->\n\nThe end.\n")
+    write_table(file, cells, "puddle", "unicycle", 3)
+    text = file.read_text()
+    assert "old" not in text
+    assert text.endswith("<!-- /humans-table -->\n\nThe end.\n")
+    assert len(re.findall(r"^\| (steady|slacking) ", text, re.MULTILINE)) == 4
+    with pytest.raises(InputError, match="no place for the table"):
+        write_table(_without_marks(tmp_path), cells, "puddle", "unicycle", 3)
+    with pytest.raises(InputError, match="at least 2 seeds"):
+        compare_humans(scenario, 1)
+
+
+def _without_marks(folder):
+    file = folder / "other.md"
+    file.write_text("nothing\n")
+    return file
