@@ -1,14 +1,32 @@
-"""Print every measurement as a table: ``python -m benchmarks``."""
+"""Print measurements as tables: ``python -m benchmarks [SUBJECT ...]``, all without a subject."""
 
 from __future__ import annotations
+
+import sys
+from functools import partial
 
 from rich.console import Console
 from rich.table import Table
 
-from . import closed_loop, humans, imperfections, sensing, surroundings
+from . import (
+    closed_loop,
+    contact_noise,
+    environments,
+    humans,
+    imperfections,
+    plant_options,
+    sensing,
+    shares,
+    surroundings,
+)
 
 SUBJECTS = {
     "closed loop": closed_loop.measure,
+    "walk": partial(closed_loop.measure, "walk"),
+    "shares of a walk": shares.measure,
+    "plant options": plant_options.measure,
+    "contact noise": contact_noise.measure,
+    "environments": environments.measure,
     "human models": humans.measure,
     "imperfections": imperfections.measure,
     "force sensor": sensing.measure,
@@ -17,9 +35,13 @@ SUBJECTS = {
 
 
 def main() -> None:
-    """Measure every subject and print a table each."""
+    """Measure subjects and print a table each."""
     console = Console()
-    for title, measure in SUBJECTS.items():
+    chosen = sys.argv[1:] or list(SUBJECTS)
+    if unknown := [name for name in chosen if name not in SUBJECTS]:
+        sys.exit(f"unknown subject {unknown[0]!r}; known: {', '.join(SUBJECTS)}")
+    for title in chosen:
+        measure = SUBJECTS[title]
         table = Table("measurement", "value", "unit", title=title, title_justify="left")
         for what, value, unit in measure():
             table.add_row(what, f"{value:.3g}", unit)

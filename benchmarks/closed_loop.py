@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from cowalk.scenarios.loading import load
 from cowalk.scenarios.runner import make_env, run
+from cowalk.scenarios.schema import Component
 
 from .timing import best
 
-SCENARIO = "puddle"
 STEPS = 300
 """Control steps timed of each part."""
 
 
-def measure() -> list[tuple[str, float, str]]:
-    """Return rows of (what, value, unit)."""
-    scenario = load(SCENARIO)
+def measure(name: str = "puddle") -> list[tuple[str, float, str]]:
+    """Return rows of (what, value, unit) of a scenario."""
+    scenario = load(name)
     shorter = scenario.model_copy(update={"duration": STEPS * scenario.rates.period, "expect": {}})
     substeps = STEPS * scenario.rates.substeps
-    unicycle = shorter.model_copy(
-        update={"plant": shorter.plant.model_copy(update={"name": "unicycle"})}
-    )
+    unicycle = shorter.model_copy(update={"plant": Component(name="unicycle")})
     env = make_env(shorter)
     env.reset(seed=0)
     plant = env._plant
@@ -29,7 +29,7 @@ def measure() -> list[tuple[str, float, str]]:
             plant.bare_step()
 
     def driven() -> None:
-        plant.reset(scenario.world, None)
+        plant.reset(scenario.world, np.random.default_rng(0))
         for _ in range(STEPS):
             plant.step((0.8, 0.0), (0.0, 0.0))
 

@@ -9,6 +9,8 @@ import tempfile
 from dataclasses import asdict
 from pathlib import Path
 
+from imageio_ffmpeg import get_ffmpeg_exe
+
 from cowalk.sim.sensor_parameters import PRESETS
 
 DOCS = Path(__file__).parent
@@ -22,6 +24,15 @@ def output(*arguments: str) -> str:
         [COMMAND, *arguments], cwd=ROOT, capture_output=True, text=True, check=True
     )
     return "\n".join(line.rstrip() for line in done.stdout.strip().splitlines())
+
+
+def measured(subject: str) -> str:
+    """Return a subject of the benchmarks as a table; only of those that do not time."""
+    sys.path.insert(0, str(ROOT))
+    from benchmarks.__main__ import SUBJECTS
+
+    rows = [f"| {what} | {value:.2g} | {unit} |" for what, value, unit in SUBJECTS[subject]()]
+    return "\n".join(("| measurement | value | unit |", "|---|---|---|", *rows))
 
 
 def quote(file: Path, name: str, text: str) -> None:
@@ -57,6 +68,10 @@ def main() -> None:
         printed = printed.replace(folder, "runs")
         quote(ROOT / "README.md", "run", fenced(printed))
         (images / "puddle.png").write_bytes(Path(folder, "puddle", "figure.png").read_bytes())
+        film = f"{folder}/puddle.mp4"
+        output("run", "puddle", "--out", f"{folder}/filmed", "--video", film)
+        ffmpeg = [get_ffmpeg_exe(), "-v", "error", "-y", "-ss", "11.2", "-i", film]
+        subprocess.run([*ffmpeg, "-frames:v", "1", images / "seeing.png"], check=True)
         output("paper", "--out", folder)
         output("humans", "show", "escalating", "--out", str(images / "escalating.png"))
         (images / "paper.png").write_bytes(Path(folder, "panels.png").read_bytes())
@@ -66,6 +81,7 @@ def main() -> None:
         text = (ROOT / "scenarios" / "library" / f"{name}.scenario.yaml").read_text().rstrip()
         quote(DOCS / file, name, fenced(text, "yaml"))
     quote(DOCS / "sensor.md", "presets", preset_table())
+    quote(DOCS / "plant.md", "contact-noise", measured("contact noise"))
 
 
 if __name__ == "__main__":

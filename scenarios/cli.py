@@ -59,6 +59,7 @@ class Kind(StrEnum):
         "  cowalk run puddle\n"
         "  cowalk run puddle --automation never-yields --out runs/stubborn\n"
         "  cowalk run puddle --set human.parameters.gain=2.0 --set world.obstacles.0.x=8 --seed 3\n"
+        "  cowalk run puddle --video puddle.mp4 --rerun puddle.rrd\n"
         "  cowalk run my.scenario.yaml --human mymodels:MyHuman --json"
     )
 )
@@ -78,11 +79,20 @@ def run(
     out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Run folder, runs/NAME unless given.")
     ] = None,
+    video: Annotated[
+        Path | None, typer.Option(metavar="FILE.mp4", help="Film the run as well.")
+    ] = None,
+    rerun: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE.rrd", help="Record it for the Rerun viewer as well."),
+    ] = None,
+    gui: Annotated[bool, typer.Option("--gui", help="Show the run in a window.")] = False,
     as_json: Json = False,
 ) -> int:
     """Run a scenario, keep what it gave, judge it."""
     from .results import writable_folder
     from .runner import run as run_scenario
+    from .watching import watchers
 
     options = {
         "plant": plant,
@@ -92,15 +102,18 @@ def run(
         "seed": "" if seed is None else str(seed),
     }
     loaded = _load(scenario, options, assign or [])
+    watching = watchers(video, rerun)
     folder = writable_folder(out if out is not None else Path("runs") / loaded.name)
     # What a user's class prints must not end up in the JSON.
     with progress_bar(loaded.name) as progress, redirect_stdout(sys.stderr):
-        result = run_scenario(loaded, progress)
+        result = run_scenario(loaded, progress, watching, gui)
     result.write(folder)
+    written = {"video": video, "rerun": rerun}
+    files = {what: str(file) for what, file in written.items() if file is not None}
     if as_json:
-        emit_json(result.summary | {"folder": str(folder), "passed": result.passed})
+        emit_json(result.summary | {"folder": str(folder), "passed": result.passed} | files)
     elif result.error is None:
-        _report(result, folder)
+        _report(result, folder, files)
     if result.error is not None:
         kept = f"the trace so far, {len(result.trace)} rows, is in {folder / 'trace.parquet'}"
         complain(f"{result.error}; {kept}")
@@ -126,7 +139,7 @@ def _load(source: str, options: dict[str, str], assignments: list[str]) -> Scena
         raise InputError(message) from error
 
 
-def _report(result: RunResult, folder: Path) -> None:
+def _report(result: RunResult, folder: Path, files: dict[str, str]) -> None:
     from .expectations import explain
 
     summary = result.summary
@@ -147,7 +160,9 @@ def _report(result: RunResult, folder: Path) -> None:
         )
     picture = folder / "figure.png"
     if picture.exists():
-        print(f"picture:  {picture}")
+        files = {"picture": str(picture)} | files
+    for what, file in files.items():
+        print(f"{what + ':':<9} {file}")
     print(f"ended by: {summary['end']}")
     factor, wall = summary["real_time_factor"], summary["wall_time_s"]
     if factor is not None:

@@ -222,7 +222,7 @@ def write_table(file: Path, cells: Sequence[Cell], scenario: str, plant: str, se
         table.add_row(*row(cell))
     text = io.StringIO()
     Console(file=text, width=400, markup=False, color_system=None).print(table)
-    lines = "\n".join(line.rstrip() for line in text.getvalue().strip("\n").splitlines())
+    lines = "\n".join(line for line in text.getvalue().splitlines() if line.strip())
     caption = (
         f"Scenario `{scenario}` on the {plant} plant, {seeds} seeds; mean and 95 % bootstrap "
         "interval. Time to agreement: over the runs that reached it."

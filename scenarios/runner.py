@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import platform
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from importlib.metadata import version
 from typing import Any
@@ -26,6 +26,7 @@ from .loading import load
 from .metrics import metrics
 from .results import RunResult, Trace, json_ready
 from .schema import Scenario
+from .watching import Watcher
 
 _VERSIONED = ("numpy", "scipy", "pybullet", "pettingzoo", "filterpy")
 
@@ -82,7 +83,12 @@ def build_agents(scenario: Scenario) -> tuple[Human, Automation]:
     return human, automation
 
 
-def run(scenario: Scenario, progress: Progress | None = None) -> RunResult:
+def run(
+    scenario: Scenario,
+    progress: Progress | None = None,
+    watchers: Sequence[Watcher] = (),
+    window: bool = False,
+) -> RunResult:
     """Run a scenario to its end.
 
     An agent or a body that goes astray ends the run cleanly: the result then carries
@@ -92,22 +98,40 @@ def run(scenario: Scenario, progress: Progress | None = None) -> RunResult:
     ----------
     scenario : Scenario
     progress : callable, optional
+    watchers : sequence of Watcher
+        Told of every control step; they are closed however the run ends.
+    window : bool
+        Show the run in a window, on the PyBullet plant at no more than real time.
 
     Raises
     ------
     InputError
-        If the scenario cannot be built.
+        If the scenario cannot be built, or a watcher cannot write what it is asked to.
     """
     human, automation = build_agents(scenario)
-    env = make_env(scenario)
+    env = make_env(scenario, "human" if window else None)
     trace = Trace()
     started = time.perf_counter()
     try:
-        end, error = _episode(scenario, env, human, automation, trace, progress)
+        end, error = _episode(scenario, env, human, automation, trace, progress, watchers)
     finally:
+        lost = _close(watchers)
         env.close()
+    if lost is not None and error is None:
+        end, error = "aborted", f"{scenario.name}: {lost}"
     wall_time = time.perf_counter() - started
     return _result(scenario, trace, end, error, wall_time)
+
+
+def _close(watchers: Sequence[Watcher]) -> str | None:
+    """Close every watcher; return what the last of those that failed says."""
+    said = None
+    for watcher in watchers:
+        try:
+            watcher.close()
+        except SimulationError as failure:
+            said = str(failure)
+    return said
 
 
 def _episode(
@@ -117,6 +141,7 @@ def _episode(
     automation: Automation,
     trace: Trace,
     progress: Progress | None,
+    watchers: Sequence[Watcher],
 ) -> tuple[str, str | None]:
     """Step until the end; return how it ended, and the error if that is why."""
     env_seed, human_seed, automation_seed = np.random.SeedSequence(scenario.seed).spawn(3)
@@ -127,9 +152,10 @@ def _episode(
         "human": f"human {scenario.human.name!r}",
         "automation": f"automation {scenario.automation.name!r}",
         "plant": f"plant {scenario.plant.name!r}",
+        "watcher": " or ".join(f"watcher {type(watcher).__name__!r}" for watcher in watchers),
     }
     total = env.steps_per_episode
-    report_every = scenario.rates.control
+    report_every = 1 if watchers else scenario.rates.control
     infos: dict[str, dict[str, Any]] = {}
     actor = "plant"
     try:
@@ -138,6 +164,9 @@ def _episode(
         human.reset(np.random.default_rng(human_seed), situation)
         actor = "automation"
         automation.reset(np.random.default_rng(automation_seed), situation)
+        actor = "watcher"
+        for watcher in watchers:
+            watcher.start(scenario, env)
         while env.agents:
             actor = "human"
             force = human.act(observations["human"])
@@ -151,6 +180,9 @@ def _episode(
             observations, _, _, _, infos = env.step({"human": force, "automation": twist})
             time_now = (len(trace) + 1) / scenario.rates.control
             trace.append(_row(time_now, env, truth, belief, infos["human"]["clearance"]))
+            for watcher in watchers:
+                actor = "watcher"
+                watcher.step(env, trace)
             if progress is not None and len(trace) % report_every == 0:
                 progress(len(trace), total)
     except InputError:
@@ -166,7 +198,10 @@ def _episode(
         when = f"t = {len(trace) * scenario.rates.period:g} s"
         return "aborted", f"{names[actor]} failed at {when}: {type(failure).__name__}: {failure}"
     last = infos["human"]
-    return "goal" if last["goal"] else "collision" if last["collision"] else "time", None
+    reasons = [why for why in ("goal", "collision") if last[why]]
+    if last["grip_lost"] and env.plant_state.over:
+        reasons.append("grip lost")
+    return (reasons or ["time"])[0], None
 
 
 def _of_truth(truth: Truth) -> tuple[float, ...]:

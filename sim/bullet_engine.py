@@ -1,4 +1,4 @@
-"""PyBullet itself: a quiet import, clients, bodies on planar joints, and the grip's reaction.
+"""PyBullet itself: a quiet import, clients, bodies from text, and what a constraint reports.
 
 PyBullet has no type stubs; its functions are reached through `engine`, whose attributes are Any.
 """
@@ -10,13 +10,12 @@ import ctypes.util
 import importlib
 import os
 import sys
+import weakref
+from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
-from importlib.resources import files
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from xml.etree import ElementTree
 
 from .errors import InputError
 
@@ -53,6 +52,10 @@ with quiet(1, 2):  # it announces its build time
     engine = importlib.import_module("pybullet")
 
 
+_opened: Counter[int] = Counter()
+"""How often each client id was given out: a freed one is given out again."""
+
+
 def connect(gui: bool = False) -> int:
     """Open a world of one's own and return its client id.
 
@@ -70,6 +73,7 @@ def connect(gui: bool = False) -> int:
         client: int = engine.connect(engine.GUI if gui else engine.DIRECT)
     if client < 0:
         raise InputError("no window can be opened: another one is open in this process")
+    _opened[client] += 1
     return client
 
 
@@ -93,125 +97,45 @@ def disconnect(client: int) -> None:
             engine.disconnect(client)
 
 
-def load(client: int, file: str, flags: int = 0, without: str = "") -> int:
-    """Load a URDF of `cowalk.sim.bodies` with its ground link held, and return the body id.
+def load(client: int, urdf: str, *, fixed: bool = True, flags: int = 0) -> int:
+    """Load a URDF given as text, and return the body id.
 
     Parameters
     ----------
     client : int
         Where to load it.
-    file : str
-        Name of the file.
+    urdf : str
+    fixed : bool
+        Whether its root link is held.
     flags : int
         Of the engine's `loadURDF`.
-    without : str
-        A massless link at the end of a fixed joint, left out together with that joint.
     """
-    root = ElementTree.fromstring(files("cowalk.sim.bodies").joinpath(file).read_text("utf-8"))
-    for part in root.findall(f"link[@name='{without}']"):
-        root.remove(part)
-    for part in root.findall(f"joint/child[@link='{without}']/.."):
-        root.remove(part)
     with TemporaryDirectory() as folder, quiet(1):
-        path = Path(folder, file)
-        ElementTree.ElementTree(root).write(path)
+        path = Path(folder, "body.urdf")
+        # The engine's reader breaks a line of more than 8191 characters, and drops one there.
+        path.write_text(urdf.replace("><", ">\n<"), encoding="utf-8")
         body: int = engine.loadURDF(
-            str(path), useFixedBase=True, flags=flags, physicsClientId=client
+            str(path), useFixedBase=fixed, flags=flags, physicsClientId=client
         )
     return body
 
 
-@dataclass(frozen=True)
-class Body:
-    """A body ready to be driven: nothing but the forces given to it act on its joints.
+class Snapshot:
+    """State of everything in a client, kept by the engine for as long as this object lives."""
 
-    Attributes
-    ----------
-    body : int
-    joints : tuple of int
-        Indices of the moving joints, in the order asked for.
-    origins : dict of str to (x, y, z)
-        Where each link's joint is with all joints at zero, fixed links included, m.
-    mass, yaw_inertia : float
-        Of all links, kg, and of the link behind the joint ``yaw`` about its centre, kg m^2.
-    grip_link : int
-        Link that carries the grip.
-    grip_pivot : (x, y, z)
-        Where the grip is in the inertial frame of that link, m.
-    """
+    def __init__(self, client: int) -> None:
+        self._client = client
+        self._id: int = engine.saveState(client)
+        weakref.finalize(self, _forget, self._id, client, _opened[client])
 
-    body: int
-    joints: tuple[int, ...]
-    origins: dict[str, tuple[float, float, float]]
-    mass: float
-    yaw_inertia: float
-    grip_link: int
-    grip_pivot: tuple[float, float, float]
+    def restore(self) -> None:
+        """Put the client back into that state, bit for bit."""
+        engine.restoreState(stateId=self._id, physicsClientId=self._client)
 
 
-def load_driven(client: int, file: str, grip: str, joints: tuple[str, ...]) -> Body:
-    """Load a body for the physics: no pictures, no collision, no damping, no motors.
-
-    It is loaded twice: the link that marks the grip tells where it is, but without the fixed
-    links of both bodies a step takes 15 % less. (The engine's own URDF_MERGE_FIXED_LINKS would
-    do, were it not to move the parent's centre of mass to its joint: bulletphysics/bullet3#4683.)
-
-    Parameters
-    ----------
-    client : int
-        Where to load it.
-    file : str
-        URDF in `cowalk.sim.bodies`.
-    grip : str
-        Massless link, fixed to a moving one, that marks where it is held.
-    joints : tuple of str
-        Names of all moving joints, ``yaw`` among them.
-    """
-    # Without the second flag the engine makes up inertias from the (absent) collision shapes.
-    bare = engine.URDF_IGNORE_VISUAL_SHAPES | engine.URDF_USE_INERTIA_FROM_FILE
-    whole = load(client, file, bare)
-    info = [
-        engine.getJointInfo(whole, link, client)
-        for link in range(engine.getNumJoints(whole, client))
-    ]
-    origins = {
-        i[12].decode(): engine.getLinkState(whole, link, 0, 1, client)[4]
-        for link, i in enumerate(info)
-    }
-    carrier = info[list(origins).index(grip)][16]
-    centre = engine.getLinkState(whole, carrier, 0, 1, client)
-    pivot, _ = engine.multiplyTransforms(
-        *engine.invertTransform(*centre[:2]), origins[grip], (0.0, 0.0, 0.0, 1.0)
-    )
-    engine.removeBody(whole, client)
-
-    body = load(client, file, bare, without=grip)
-    count = engine.getNumJoints(body, client)
-    index = {engine.getJointInfo(body, joint, client)[1]: joint for joint in range(count)}
-    for link in range(-1, count):
-        engine.changeDynamics(
-            body,
-            link,
-            linearDamping=0.0,
-            angularDamping=0.0,
-            jointDamping=0.0,
-            physicsClientId=client,
-        )
-        engine.setCollisionFilterGroupMask(body, link, 0, 0, client)
-        if link >= 0:
-            engine.setJointMotorControl2(
-                body, link, engine.VELOCITY_CONTROL, force=0.0, physicsClientId=client
-            )
-    dynamics = [engine.getDynamicsInfo(body, link, client) for link in range(count)]
-    return Body(
-        body=body,
-        joints=tuple(index[name.encode()] for name in joints),
-        origins=origins,
-        mass=sum(d[0] for d in dynamics),
-        yaw_inertia=dynamics[index[b"yaw"]][2][2],
-        grip_link=index[info[carrier][1]],
-        grip_pivot=pivot,
-    )
+def _forget(state: int, client: int, opened: int) -> None:
+    if _opened[client] == opened and engine.isConnected(client):
+        engine.removeState(state, client)
 
 
 def force_on_parent(kind: int, reaction: tuple[float, ...]) -> tuple[float, float, float]:

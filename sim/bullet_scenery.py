@@ -7,7 +7,8 @@ import math
 import numpy as np
 
 from .bullet_engine import engine
-from .footprint import Rectangle, furniture, walls
+from .bullet_floor import lay_floor
+from .footprint import Rectangle, furniture, pieces, walls
 from .pedestrians import Pedestrian
 from .world import World
 
@@ -19,11 +20,10 @@ WALL_HEIGHT = 0.25
 CROSS_WALL_HEIGHT = 1.1
 """Of walls across the corridor, m: a doorway must look like one, and be looked over."""
 SOLID_HEIGHT = 0.8
-TILE = 1.0
-"""Side of the floor's tiles, m: without them one cannot see that the pair moves."""
+WALL_PIECE = 2.0
+"""Walls are built in pieces, m: what a triangle costs to render is the rectangle around it."""
 MARGIN = 6.0
 """How far floor and walls reach beyond path and start, m."""
-FLOOR, FLOOR_DARK = (0.80, 0.78, 0.74, 1.0), (0.74, 0.72, 0.68, 1.0)
 WALL, PUDDLE, SOLID = (0.55, 0.57, 0.60, 1.0), (0.20, 0.50, 0.90, 1.0), (0.55, 0.42, 0.28, 1.0)
 TOP = (0.66, 0.53, 0.38, 1.0)
 SKIN, HAIR, TROUSERS = (0.80, 0.61, 0.47, 1.0), (0.15, 0.12, 0.10, 1.0), (0.25, 0.25, 0.28, 1.0)
@@ -49,7 +49,8 @@ class Scenery:
         self._floor(world)
         for wall in walls(world, MARGIN):
             across = wall.half_length < wall.half_width or wall.yaw != 0.0
-            self._block(wall, CROSS_WALL_HEIGHT if across else WALL_HEIGHT, WALL)
+            for piece in pieces(wall, WALL_PIECE):
+                self._block(piece, CROSS_WALL_HEIGHT if across else WALL_HEIGHT, WALL)
         for item in world.furniture:
             self._furnish(furniture(item), item.height)
         for thing in world.obstacles:
@@ -93,23 +94,8 @@ class Scenery:
                 edge = half + branch.length
                 low, high = (half, edge) if branch.side == "left" else (-edge, -half)
                 begin = branch.x - branch.width / 2.0
-                self._tiles(begin, begin + branch.width, low, high)
-        self._tiles(left, right, bottom, top)
-
-    def _tiles(self, left: float, right: float, bottom: float, top: float) -> None:
-        for row in range(math.ceil((top - bottom) / TILE)):
-            for column in range(math.ceil((right - left) / TILE)):
-                length = min(TILE, right - left - column * TILE)
-                depth = min(TILE, top - bottom - row * TILE)
-                x, y = left + column * TILE + length / 2.0, bottom + row * TILE + depth / 2.0
-                self._place(
-                    self._shape(
-                        engine.GEOM_BOX,
-                        FLOOR_DARK if (row + column) % 2 else FLOOR,
-                        halfExtents=(length / 2.0, depth / 2.0, 0.01),
-                    ),
-                    (x, y, -0.01),
-                )
+                lay_floor(self._client, (begin, begin + branch.width), (low, high))
+        lay_floor(self._client, (left, right), (bottom, top))
 
     def _block(self, box: Rectangle, height: float, colour: Colour, base: float = 0.0) -> None:
         shape = self._shape(

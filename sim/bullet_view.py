@@ -8,16 +8,49 @@ from __future__ import annotations
 
 import math
 import time
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .bullet_coupling import CouplingParameters
 from .bullet_engine import connect, disconnect, engine, load
+from .bullet_scene import look_at, photograph
 from .bullet_scenery import Scenery
+from .camera import Camera
+from .gait import step_frequency
+from .human_body import HumanBody
+from .human_figure import figure_urdf, pose
+from .urdf import Vector
+from .urdf_colours import one_colour_a_link
 from .world import World
 
-CAMERA_DISTANCE, CAMERA_PITCH, CAMERA_SIDE = 3.3, -24.0, 32.0
-"""Chase camera: m, degrees, and degrees to the left of straight behind the base."""
+CLOTH = (0.85, 0.80, 0.62, 1.0)
+CAMERA_DISTANCE, CAMERA_PITCH, CAMERA_SIDE, CAMERA_FIELD = 3.3, -24.0, 32.0, 50.0
+"""Chase camera: m, degrees, degrees to the left of straight behind the base, degrees."""
+TOP_DISTANCE, TOP_FIELD, TOP_AHEAD = 24.0, 10.0, 0.8
+"""Top camera, far away so that it hardly distorts: m, degrees, m ahead of the pair."""
+
+
+@dataclass(frozen=True)
+class Look:
+    """What the bodies look like.
+
+    Attributes
+    ----------
+    robot : str
+        URDF of the base.
+    human : HumanBody
+    load : CouplingParameters or None
+        What they carry.
+    clamp : (x, y, z)
+        Where the load is clamped, base axes, m.
+    """
+
+    robot: str
+    human: HumanBody
+    load: CouplingParameters | None
+    clamp: Vector
 
 
 class Viewer:
@@ -26,6 +59,7 @@ class Viewer:
     Parameters
     ----------
     world : World
+    look : Look
     gui : bool
         Open a window; else pictures are rendered in software.
 
@@ -35,7 +69,7 @@ class Viewer:
         If the window cannot be opened.
     """
 
-    def __init__(self, world: World, gui: bool = False) -> None:
+    def __init__(self, world: World, look: Look, gui: bool = False) -> None:
         self.world = world
         self._gui = gui
         self._target = (0.0, 0.0, 0.8)
@@ -47,38 +81,77 @@ class Viewer:
             engine.configureDebugVisualizer(
                 engine.COV_ENABLE_RENDERING, 0, physicsClientId=self._client
             )
-        self._bodies = [self._load("base.urdf"), self._load("human.urdf")]
+        self._look = look
+        self._robot = load(self._client, one_colour_a_link(look.robot))
+        self._human = load(self._client, one_colour_a_link(figure_urdf(look.human)))
+        self._joints = {
+            engine.getJointInfo(self._human, joint, self._client)[1].decode(): joint
+            for joint in range(engine.getNumJoints(self._human, self._client))
+        }
+        self._carried = self._stretcher(look) if look.load else None
+        self._walked: tuple[float, float] | None = None
+        self._phase = 0.0
         self._scenery = Scenery(self._client, world)
         if gui:
             engine.configureDebugVisualizer(
                 engine.COV_ENABLE_RENDERING, 1, physicsClientId=self._client
             )
 
-    def _load(self, file: str) -> tuple[int, list[int]]:
-        body = load(self._client, file)
-        moving = [
-            joint
-            for joint in range(engine.getNumJoints(body, self._client))
-            if engine.getJointInfo(body, joint, self._client)[2] != engine.JOINT_FIXED
-        ]
-        return body, moving
+    def _stretcher(self, look: Look) -> int:
+        """Return a load of two poles and a cloth, its origin at the clamp on the floor."""
+        assert look.load is not None
+        length, width, height = look.load.length, look.load.width, look.clamp[2]
+        pole = engine.createVisualShape(
+            engine.GEOM_BOX,
+            halfExtents=(length / 2.0, width / 2.0 - 0.02, 0.01),
+            rgbaColor=CLOTH,
+            visualFramePosition=(-length / 2.0, 0.0, height),
+            physicsClientId=self._client,
+        )
+        body: int = engine.createMultiBody(
+            0.0, baseVisualShapeIndex=pole, physicsClientId=self._client
+        )
+        return body
 
-    def show(self, base: tuple[float, ...], human: tuple[float, ...], now: float) -> None:
+    def show(
+        self,
+        base: tuple[float, ...],
+        human: tuple[float, ...],
+        carried: tuple[float, ...],
+        phase: float | None,
+        speed: float,
+        now: float,
+    ) -> None:
         """Pose the bodies and let the camera follow.
 
         Parameters
         ----------
         base : (x, y, yaw)
-            Joint positions, world axes, m and rad.
-        human : (x, y, yaw, shoulder, elbow)
+            World axes, m and rad.
+        human : (x, y, yaw, shoulder, elbow, ...)
             Joint positions, m and rad.
+        carried : (x, y, yaw) or ()
+            Of the load.
+        phase : float or None
+            Of the stride, rad; None takes it from the distance walked since the last look.
+        speed : float
+            Of the walk, m/s.
         now : float
             Since reset, s.
         """
         self._scenery.show(now)
-        for (body, moving), angles in zip(self._bodies, (base, human), strict=True):
-            for joint, angle in zip(moving, angles, strict=True):
-                engine.resetJointState(body, joint, angle, 0.0, self._client)
+        self._put(self._robot, base)
+        self._put(self._human, human)
+        if self._carried is not None:
+            self._put(self._carried, carried)
+        if phase is None:
+            phase = self._phase = self._stepped(human[:2], speed)
+        body = self._look.human
+        angles = dict(zip(body.joints[3:], human[3:], strict=True))
+        angles |= pose(body.parameters, phase, speed)
+        for name, angle in angles.items():
+            if name in self._joints:
+                engine.resetJointState(self._human, self._joints[name], angle, 0.0, self._client)
         self._target = ((base[0] + human[0]) / 2.0, (base[1] + human[1]) / 2.0, 0.8)
         self._yaw = math.degrees(base[2]) - 90.0 - CAMERA_SIDE
         if self._gui:
@@ -86,28 +159,51 @@ class Viewer:
                 CAMERA_DISTANCE, self._yaw, CAMERA_PITCH, self._target, self._client
             )
 
+    def _put(self, body: int, place: tuple[float, ...]) -> None:
+        turn = engine.getQuaternionFromEuler((0.0, 0.0, place[2]))
+        # The engine places the root link's centre of mass, not its frame.
+        inertial = engine.getDynamicsInfo(body, -1, self._client)[3:5]
+        centre = engine.multiplyTransforms((*place[:2], 0.0), turn, *inertial)
+        engine.resetBasePositionAndOrientation(body, *centre, self._client)
+
+    def _stepped(self, place: tuple[float, ...], speed: float) -> float:
+        """Return the phase of the stride after walking here from where one was last seen."""
+        last, self._walked = self._walked, (place[0], place[1])
+        if last is None or speed < 0.05:
+            return self._phase
+        step = speed / step_frequency(speed)
+        return self._phase + math.pi * math.dist(last, self._walked) / step
+
     def wait(self, period: float) -> None:
         """Wait until a period (s) has passed since the last wait: a watcher wants real time."""
         time.sleep(max(0.0, self._shown + period - time.perf_counter()))
         self._shown = time.perf_counter()
 
+    @property
+    def client(self) -> int:
+        """The engine world that is looked at."""
+        return self._client
+
+    def camera(self, kind: str, width: int, height: int) -> Camera:
+        """Return a camera that follows the pair.
+
+        Parameters
+        ----------
+        kind : {"chase", "top"}
+            From behind, or straight from above with world x to the right.
+        width, height : int
+            Size of the picture in pixels.
+        """
+        size = (width, height)
+        if kind == "top":
+            x, y, _ = self._target
+            ahead = (x + TOP_AHEAD, 0.0 if self.world.corridor else y, 0.0)
+            return look_at(ahead, TOP_DISTANCE, 0.0, -89.99, TOP_FIELD, size)
+        return look_at(self._target, CAMERA_DISTANCE, self._yaw, CAMERA_PITCH, CAMERA_FIELD, size)
+
     def picture(self, width: int, height: int) -> NDArray[np.uint8]:
         """Return what the chase camera sees, uint8, shape (height, width, 3)."""
-        view = engine.computeViewMatrixFromYawPitchRoll(
-            self._target, CAMERA_DISTANCE, self._yaw, CAMERA_PITCH, 0.0, 2
-        )
-        projection = engine.computeProjectionMatrixFOV(50.0, width / height, 0.1, 30.0)
-        pixels = engine.getCameraImage(
-            width,
-            height,
-            view,
-            projection,
-            lightDirection=(-2.0, 3.0, 6.0),
-            shadow=0,
-            renderer=engine.ER_TINY_RENDERER,
-            physicsClientId=self._client,
-        )[2]
-        return np.reshape(np.array(pixels, dtype=np.uint8), (height, width, 4))[..., :3].copy()
+        return photograph(self._client, self.camera("chase", width, height))[0]
 
     def close(self) -> None:
         """Free the world. May be called twice."""

@@ -1,8 +1,15 @@
-"""Drive of the mobile base: linear tyre slip with finite gains and limits, in plain floats."""
+"""Drive of the mobile base: command, delay, limits, and linear tyre slip, in plain floats."""
 
 from __future__ import annotations
 
+from collections import deque
 from dataclasses import dataclass
+from typing import Any
+
+from .errors import InputError
+from .wheels import limited
+
+DRIVES = ("slip", "wheels")
 
 
 @dataclass(frozen=True)
@@ -11,18 +18,35 @@ class DriveParameters:
 
     Parameters
     ----------
+    kind : {"slip", "wheels"}
+        Linear tyre slip on a base that cannot tip, or wheels with friction on a floor, which
+        put the contact solver's noise on the force (docs/plant.md has the numbers).
     gain_forward, gain_sideways : float
-        Tyre force per slip speed along and across the base, N s/m.
+        Tyre force per slip speed along and across the base, N s/m. Slip only.
     gain_yaw : float
-        Torque per slip of the turning rate, N m s/rad.
+        Torque per slip of the turning rate, N m s/rad. Slip only.
     max_force, max_torque : float
         Limits of the motors along the base (N) and about it (N m).
     max_speed, max_rate : float
         Limits of the command, m/s and rad/s.
     max_acceleration, max_rate_change : float
         Slope with which the command is approached, m/s^2 and rad/s^2.
+    wheel_track, wheel_radius : float
+        Distance of the two driven wheels, and their radius, m.
+    max_wheel_speed : float
+        rad/s.
+    delay : float
+        From a command to its effect, s.
+    friction : float
+        Of the tyres. Wheels only.
+
+    Raises
+    ------
+    InputError
+        If the kind is unknown, or a number has the wrong sign.
     """
 
+    kind: str = "slip"
     gain_forward: float = 2000.0
     gain_sideways: float = 4000.0
     gain_yaw: float = 150.0
@@ -32,6 +56,83 @@ class DriveParameters:
     max_rate: float = 1.5
     max_acceleration: float = 0.5
     max_rate_change: float = 1.0
+    wheel_track: float = 0.42
+    wheel_radius: float = 0.10
+    max_wheel_speed: float = 20.0
+    delay: float = 0.0
+    friction: float = 0.9
+
+    def __post_init__(self) -> None:
+        if self.kind not in DRIVES:
+            raise InputError(f"kind = {self.kind!r}: must be one of {', '.join(DRIVES)}")
+        may_be_zero = ("gain_forward", "gain_sideways", "gain_yaw", "delay", "friction")
+        for name, value in vars(self).items():
+            if name == "kind":
+                continue
+            if not (value > 0.0 or (value == 0.0 and name in (*may_be_zero, *_FORCES))):
+                raise InputError(f"{name} = {value}: must be above 0")
+
+
+_FORCES = ("max_force", "max_torque")
+
+
+class Command:
+    """The twist that the motors are asked for: limited, delayed, and approached by slopes.
+
+    Parameters
+    ----------
+    parameters : DriveParameters
+    step : float
+        Physics step in s.
+    """
+
+    def __init__(self, parameters: DriveParameters, step: float) -> None:
+        p = parameters
+        self._limits = (
+            p.max_speed,
+            p.max_rate,
+            p.wheel_track,
+            p.max_wheel_speed * p.wheel_radius,
+        )
+        self._speed_slope = p.max_acceleration * step
+        self._rate_slope = p.max_rate_change * step
+        self._late = round(p.delay / step)
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget the command: at rest."""
+        self._goal = (0.0, 0.0)
+        self._speed = self._rate = 0.0
+        self._under_way = deque([(0.0, 0.0)] * self._late)
+
+    def set(self, speed: float, rate: float) -> None:
+        """Set the twist to approach, m/s and rad/s."""
+        self._goal = limited((speed, rate), *self._limits)
+
+    def advance(self) -> tuple[float, float]:
+        """Return the twist asked of the motors in the next physics step, m/s and rad/s."""
+        speed, rate = self._goal
+        if self._late:
+            self._under_way.append(self._goal)
+            speed, rate = self._under_way.popleft()
+        if speed == self._speed and rate == self._rate:
+            return speed, rate
+        gap = speed - self._speed
+        slope = self._speed_slope
+        self._speed += slope if gap > slope else -slope if gap < -slope else gap
+        gap = rate - self._rate
+        slope = self._rate_slope
+        self._rate += slope if gap > slope else -slope if gap < -slope else gap
+        return self._speed, self._rate
+
+    def save(self) -> tuple[Any, ...]:
+        """Return what `restore` takes."""
+        return self._goal, self._speed, self._rate, tuple(self._under_way)
+
+    def restore(self, saved: tuple[Any, ...]) -> None:
+        """Go on from a saved state."""
+        self._goal, self._speed, self._rate, under_way = saved
+        self._under_way = deque(under_way)
 
 
 class SlipDrive:
@@ -58,20 +159,8 @@ class SlipDrive:
         self._gain_yaw = min(parameters.gain_yaw, 0.5 * inertia / step)
         self._max_force = parameters.max_force
         self._max_torque = parameters.max_torque
-        self._max_speed = parameters.max_speed
-        self._max_rate = parameters.max_rate
-        self._speed_slope = parameters.max_acceleration * step
-        self._rate_slope = parameters.max_rate_change * step
-        self.reset()
-
-    def reset(self) -> None:
-        """Forget the command: at rest."""
-        self._speed = self._rate = self._speed_goal = self._rate_goal = 0.0
-
-    def command(self, speed: float, rate: float) -> None:
-        """Set the twist to approach, m/s and rad/s; cut to the limits."""
-        self._speed_goal = max(-self._max_speed, min(self._max_speed, speed))
-        self._rate_goal = max(-self._max_rate, min(self._max_rate, rate))
+        self.command = Command(parameters, step)
+        self._advance = self.command.advance
 
     def wrench(self, forward: float, sideways: float, rate: float) -> tuple[float, float, float]:
         """Return the ground's force and torque for the next physics step, base axes.
@@ -86,17 +175,11 @@ class SlipDrive:
         (fx, fy, torque)
             N, N, N m.
         """
-        gap = self._speed_goal - self._speed
-        slope = self._speed_slope
-        self._speed += slope if gap > slope else -slope if gap < -slope else gap
-        gap = self._rate_goal - self._rate
-        slope = self._rate_slope
-        self._rate += slope if gap > slope else -slope if gap < -slope else gap
-
-        force = self._gain_forward * (self._speed - forward)
+        wanted, wanted_rate = self._advance()
+        force = self._gain_forward * (wanted - forward)
         limit = self._max_force
         force = limit if force > limit else -limit if force < -limit else force
-        torque = self._gain_yaw * (self._rate - rate)
+        torque = self._gain_yaw * (wanted_rate - rate)
         limit = self._max_torque
         torque = limit if torque > limit else -limit if torque < -limit else torque
         return force, -self._gain_sideways * sideways, torque

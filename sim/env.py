@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import inspect
 from typing import Any, ClassVar
 
@@ -24,6 +25,9 @@ from .world import Corridor, World
 STRAIGHT_CORRIDOR = World(path=Path(((0.0, 0.0), (20.0, 0.0))), corridor=Corridor(width=3.0))
 """The world of `parallel_env` without arguments: nothing in it, nothing to negotiate."""
 
+_SAVED = ("agents", "_step_count", "_sensor", "_generator", "_state", "_reading", "_info")
+"""What of an environment changes within an episode, beside its plant."""
+
 
 def _box(*shape: int) -> Box:
     return Box(-np.inf, np.inf, shape, np.float64)
@@ -41,8 +45,9 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
     Spaces do not depend on who sits in the seats.
 
     Rewards are those of `cowalk.sim.reward.Reward`. An episode terminates when the base
-    reaches the end of the path (``goal``) or a body touches something solid (``collision``),
-    and is truncated after ``duration``. Infos hold what a scoring needs and no seat may see.
+    reaches the end of the path (``goal``), a body touches something solid (``collision``) or
+    the plant, having lost its grip, asks for it (``grip_lost``). It is truncated after
+    ``duration``. Infos hold what a scoring needs and no seat may see.
 
     Parameters
     ----------
@@ -144,6 +149,11 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         return self.action_spaces[agent]
 
     @property
+    def plant(self) -> Plant:
+        """The plant: truth, for those who watch, not for the seats."""
+        return self._plant
+
+    @property
     def plant_state(self) -> PlantState:
         """State of the plant after the last step or reset: truth, not for the seats."""
         return self._state
@@ -170,7 +180,12 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self._reading = self._sensor.measure(self._state.force_on_base)
         state = self._state
         clearance, _ = self._distances(self._time, state.pose, state.human_pose)
-        self._info = {"clearance": clearance, "goal": False, "collision": False}
+        self._info = {
+            "clearance": clearance,
+            "goal": False,
+            "collision": False,
+            "grip_lost": False,
+        }
         return self._observations(), {seat: dict(self._info) for seat in SEATS}
 
     def step(
@@ -206,9 +221,14 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         observations = self._observations()
         station = self._relative[0]
         goal = station >= self.world.path.length
-        self._info = {"clearance": clearance, "goal": goal, "collision": collision}
+        self._info = {
+            "clearance": clearance,
+            "goal": goal,
+            "collision": collision,
+            "grip_lost": not state.grip_held,
+        }
         rewards = self._reward(state, self._relative, clearance, collision, goal)
-        over = goal or collision
+        over = goal or collision or state.over
         late = not over and self._step_count >= self.steps_per_episode
         if over or late:
             self.agents = []
@@ -221,6 +241,20 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
             dict.fromkeys(SEATS, late),
             {seat: dict(self._info) for seat in SEATS},
         )
+
+    def save(self) -> Any:
+        """Return the whole state within an episode, for `restore`: opaque, and never changed."""
+        # Copied as one, so that what its parts share stays shared.
+        own = copy.deepcopy({name: vars(self)[name] for name in _SAVED})
+        return self._plant.save(), own
+
+    def restore(self, saved: Any) -> dict[str, Observation]:
+        """Go on from a saved state of this environment, bit for bit; return what is seen there."""
+        plant, own = saved
+        self._plant.restore(plant)
+        for name, value in copy.deepcopy(own).items():
+            setattr(self, name, value)
+        return self._observations()
 
     @property
     def measured_force(self) -> Array:

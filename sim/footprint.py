@@ -44,6 +44,21 @@ def corners(box: Rectangle) -> Array:
     return np.asarray(signs * (box.half_length, box.half_width) @ turn + (box.x, box.y))
 
 
+def pieces(box: Rectangle, length: float) -> list[Rectangle]:
+    """Return a rectangle cut along its length, or an upright one along y, no piece longer (m)."""
+    x, y, half_length, half_width, yaw = box
+    upright = half_width > half_length
+    half = half_width if upright else half_length
+    count = math.ceil(2.0 * half / length)
+    part = half / count
+    turn = yaw + (math.pi / 2.0 if upright else 0.0)
+    sizes = (half_length, part) if upright else (part, half_width)
+    places = [part * (2 * number + 1) - half for number in range(count)]
+    return [
+        Rectangle(x + at * math.cos(turn), y + at * math.sin(turn), *sizes, yaw) for at in places
+    ]
+
+
 def walls(world: World, reach: float = REACH) -> tuple[Rectangle, ...]:
     """Return the walls of a world.
 

@@ -7,7 +7,7 @@ Two plants ship, `cowalk.sim.unicycle` (kinematic, the paper's) and `cowalk.sim.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from .clearance import Distances
 from .errors import InputError
 from .motion import Array
 from .world import World
+from .wrench import SensorMount, in_sensor_frame
 
 BASE_RADIUS = 0.28
 """Radius of the disc that bounds the mobile base, m."""
@@ -22,6 +23,9 @@ HUMAN_RADIUS = 0.22
 """Radius of the disc that bounds the human's trunk, m (half of a shoulder breadth of 0.44 m)."""
 HUMAN_PLACE = (-0.10, -0.65, 0.0)
 """Pose at which the human walks beside the base, in base axes: m, m, rad."""
+
+AT_HANDLE = SensorMount()
+"""A sensor whose frame is the base's, moved to the handle."""
 
 
 def _ratio(fast_name: str, fast: int, slow_name: str, slow: int) -> int:
@@ -83,6 +87,15 @@ class PlantState:
     force_on_base : ndarray, shape (samples, 2)
         Force of the human on the base in base axes, N, at every sensor instant of the step,
         oldest first, before the sensor model. A fresh array each step.
+    wrench_on_base : ndarray, shape (samples, 6), optional
+        Force (N) and torque about the handle (N m) of the human on the base, base axes, at the
+        same instants; None where the plant knows no torque.
+    mount : SensorMount
+        Where the sensor sits.
+    grip_held : bool
+        Whether human and base still hold on to each other.
+    over : bool
+        Whether the plant asks for the end of the episode, having lost its grip.
     time : float
         Since reset, s.
     """
@@ -91,7 +104,20 @@ class PlantState:
     twist: tuple[float, float]
     human_pose: tuple[float, float, float]
     force_on_base: Array
+    wrench_on_base: Array | None = None
+    mount: SensorMount = AT_HANDLE
+    grip_held: bool = True
+    over: bool = False
     time: float = 0.0
+
+    @property
+    def wrench_on_sensor(self) -> Array:
+        """The wrench about the sensor's origin, sensor axes, shape (samples, 6), N and N m."""
+        wrench = self.wrench_on_base
+        if wrench is None:
+            wrench = np.zeros((len(self.force_on_base), 6))
+            wrench[:, :2] = self.force_on_base
+        return in_sensor_frame(wrench, self.mount)
 
 
 class Plant(Protocol):
@@ -118,6 +144,14 @@ class Plant(Protocol):
         SimulationError
             If the state is not finite any more, or a body moves faster than is plausible.
         """
+        ...
+
+    def save(self) -> Any:
+        """Return the whole state within an episode: opaque, and never changed."""
+        ...
+
+    def restore(self, saved: Any) -> PlantState:
+        """Go on from what `save` gave, bit for bit; the state's force samples are void."""
         ...
 
     def distances(self, world: World) -> Distances:

@@ -25,7 +25,19 @@ BASE, HEADING, HUMAN, HEAD, FORCE = "#0d7390", "#ffffff", "#b8383a", "#3f2a1c", 
 PUDDLE, SOLID, PASSER = "#4c9be8", "#7a6a58", "#4f8a5b"
 
 
-def draw(world: World, state: PlantState, width: int, height: int) -> NDArray[np.uint8]:
+def window(
+    world: World, state: PlantState, width: int, height: int
+) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return world x at the picture's left and right edge, and world y at its bottom and top, m."""
+    x, y, _ = state.pose
+    half_height = SPAN / 2.0 * height / width
+    centre = 0.0 if world.corridor and world.corridor.width < 2.0 * half_height else y
+    return (x - SPAN * 0.4, x + SPAN * 0.6), (centre - half_height, centre + half_height)
+
+
+def draw(
+    world: World, state: PlantState, width: int, height: int, force: bool = True
+) -> NDArray[np.uint8]:
     """Draw walls, path, obstacles, base, human and the force on the base, seen from above.
 
     The picture follows the base; world x points right and y up.
@@ -38,6 +50,8 @@ def draw(world: World, state: PlantState, width: int, height: int) -> NDArray[np
         The last sample of its force is drawn.
     width, height : int
         Size in pixels.
+    force : bool
+        Whether to draw it.
 
     Returns
     -------
@@ -46,10 +60,9 @@ def draw(world: World, state: PlantState, width: int, height: int) -> NDArray[np
     figure = Figure(figsize=(width / 100.0, height / 100.0), dpi=100)
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0), facecolor=FLOOR)
     x, y, theta = state.pose
-    half_height = SPAN / 2.0 * height / width
-    axes.set_xlim(x - SPAN * 0.4, x + SPAN * 0.6)
-    centre = 0.0 if world.corridor and world.corridor.width < 2.0 * half_height else y
-    axes.set_ylim(centre - half_height, centre + half_height)
+    across, along = window(world, state, width, height)
+    axes.set_xlim(*across)
+    axes.set_ylim(*along)
     axes.set_xticks([])
     axes.set_yticks([])
     axes.spines[:].set_visible(False)
@@ -63,13 +76,13 @@ def draw(world: World, state: PlantState, width: int, height: int) -> NDArray[np
     cos, sin = math.cos(theta), math.sin(theta)
     turn = np.array([[cos, sin], [-sin, cos]])
     axes.add_patch(Polygon(nose @ turn + (x, y), facecolor=HEADING, zorder=5))
-    force = state.force_on_base[-1] @ turn * METRES_PER_NEWTON
-    if np.hypot(*force) > 0.02:
+    arrow = state.force_on_base[-1] @ turn * METRES_PER_NEWTON
+    if force and np.hypot(*arrow) > 0.02:
         axes.add_patch(
             FancyArrow(
                 x,
                 y,
-                *force,
+                *arrow,
                 width=0.05,
                 head_width=0.16,
                 length_includes_head=True,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -58,6 +59,15 @@ class UnicyclePlant:
         self._hand_force = hand_force
         if not math.isfinite(sum(self._pose)):
             raise SimulationError(f"the base's pose is {self._pose}: not finite")
+        return self._state()
+
+    def save(self) -> Any:
+        """See `Plant.save`."""
+        return self._pose, self._twist, self._hand_force, self._world, self._steps
+
+    def restore(self, saved: Any) -> PlantState:
+        """See `Plant.restore`."""
+        self._pose, self._twist, self._hand_force, self._world, self._steps = saved
         return self._state()
 
     def _state(self) -> PlantState:

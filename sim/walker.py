@@ -9,6 +9,11 @@ from __future__ import annotations
 import math
 from collections import deque
 from dataclasses import dataclass
+from typing import Any
+
+from .errors import InputError
+from .gait import Gait
+from .human_body import HumanBody
 
 
 @dataclass(frozen=True)
@@ -26,6 +31,12 @@ class WalkerParameters:
     hand_stiffness, hand_damping : float
         Of the relaxed arm about its posture, seen at the hand, N/m and N s/m. The stiffness is
         the low end of the 50-300 N/m, the damping of the 5-30 N s/m, measured for human arms.
+        Two arms share them.
+
+    Raises
+    ------
+    InputError
+        If one is negative.
     """
 
     stiffness: float = 1500.0
@@ -36,43 +47,10 @@ class WalkerParameters:
     hand_stiffness: float = 100.0
     hand_damping: float = 10.0
 
-
-@dataclass(frozen=True)
-class Arm:
-    """Two links in the horizontal plane.
-
-    Parameters
-    ----------
-    shoulder : (x, y)
-        Shoulder in trunk axes, m.
-    upper, fore : float
-        Length of the upper arm, and of the forearm as far as the grip, seen from above, m.
-    """
-
-    shoulder: tuple[float, float]
-    upper: float
-    fore: float
-
-    def angles(self, hand: tuple[float, float]) -> tuple[float, float]:
-        """Return the shoulder and elbow angle (rad) that put the hand at a place in trunk axes.
-
-        Of the two solutions it is the one with the elbow out to the left, as a left arm bends.
-
-        Raises
-        ------
-        ValueError
-            If the hand cannot get there.
-        """
-        x, y = hand[0] - self.shoulder[0], hand[1] - self.shoulder[1]
-        reach = (x * x + y * y - self.upper**2 - self.fore**2) / (2.0 * self.upper * self.fore)
-        if not -1.0 < reach < 1.0:
-            raise ValueError(
-                f"a hand at {hand} m is out of reach of an arm of {self.upper} + {self.fore} m "
-                f"at {self.shoulder} m"
-            )
-        elbow = -math.acos(reach)
-        bend = math.atan2(self.fore * math.sin(elbow), self.upper + self.fore * math.cos(elbow))
-        return math.atan2(y, x) - bend, elbow
+    def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            if not value >= 0.0:
+                raise InputError(f"{name} = {value}: must be at least 0")
 
 
 class Walker:
@@ -80,46 +58,65 @@ class Walker:
 
     Legs: a delayed spring and damper towards the place beside the base, plus the force that
     turns the walking body with the base (m omega x v), plus the reaction to the intended push,
-    so that a steady push does not move the trunk. Arm: J^T (intended force + posture spring).
+    so that a steady push does not move the trunk, plus what the sway of the gait takes (m a).
+    Arms: J^T (intended force + posture spring).
 
     Parameters
     ----------
     parameters : WalkerParameters
-    arm : Arm
+    body : HumanBody
     place : (x, y, theta)
         Where the trunk walks, base axes: m, m, rad.
-    handle : (x, y)
-        Handle in base axes, m.
+    gait : Gait
     mass : float
         Of the whole human, kg.
     step : float
-        Physics step in s.
+        Time between updates, s.
     """
 
     def __init__(
         self,
         parameters: WalkerParameters,
-        arm: Arm,
+        body: HumanBody,
         place: tuple[float, float, float],
-        handle: tuple[float, float],
+        gait: Gait,
         mass: float,
         step: float,
     ) -> None:
         self._parameters = parameters
-        self._arm = arm
+        self._arms = tuple(
+            (
+                3 + 2 * index,
+                *arm.shoulder,
+                arm.upper.length,
+                arm.fore.length,
+                *rest,
+            )
+            for index, (arm, rest) in enumerate(zip(body.arms, body.rest, strict=True))
+        )
+        self._joints = 3 + 2 * len(self._arms)
+        share = 1.0 / len(self._arms)
+        self._share = share
+        self._hand = (share * parameters.hand_stiffness, share * parameters.hand_damping)
         self._place = place
         self._mass = mass
-        cos, sin = math.cos(place[2]), math.sin(place[2])
-        x, y = handle[0] - place[0], handle[1] - place[1]
-        self._rest = (cos * x + sin * y, cos * y - sin * x)
         self._late = round(parameters.delay / step)
-        self.posture = arm.angles(self._rest)
-        """Shoulder and elbow angle at which the arm rests, rad."""
-        self.reset()
+        self.gait = gait
+        self._legs: deque[tuple[float, float, float]] = deque()
 
     def reset(self) -> None:
         """Forget the reflexes under way."""
         self._legs = deque([(0.0, 0.0, 0.0)] * self._late)
+
+    def save(self) -> tuple[Any, ...]:
+        """Return what `restore` takes."""
+        return tuple(self._legs), self.gait.save()
+
+    def restore(self, saved: tuple[Any, ...]) -> None:
+        """Go on from a saved state."""
+        legs, gait = saved
+        self._legs = deque(legs)
+        self.gait.restore(gait)
 
     def forces(
         self,
@@ -128,33 +125,46 @@ class Walker:
         cos: float,
         sin: float,
         push: tuple[float, float],
-    ) -> tuple[float, float, float, float, float]:
-        """Return the forces on the joints x, y, yaw, shoulder and elbow: N, N, N m, N m, N m.
+    ) -> list[float]:
+        """Return the forces on the joints x, y, yaw, and shoulder and elbow of each arm.
 
         Parameters
         ----------
         base : (x, y, yaw, vx, vy, rate)
             State of the base, world axes: m, rad, m/s, rad/s.
-        human : (x, y, yaw, shoulder, elbow, and their five rates)
+        human : (x, y, yaw, shoulder, elbow, ..., and their rates)
             State of the human's joints.
         cos, sin : float
             Of the base's yaw.
         push : (fx, fy)
-            Intended force of the hand on the base, base axes, N.
+            Intended force of the hands on the base, base axes, N.
+
+        Returns
+        -------
+        list of float
+            N, N, N m, N m, ...
         """
-        p = self._parameters
+        p, joints = self._parameters, self._joints
         base_x, base_y, base_yaw, base_vx, base_vy, base_rate = base
-        x, y, yaw, shoulder, elbow, vx, vy, rate, shoulder_rate, elbow_rate = human
+        vx, vy, rate = human[joints], human[joints + 1], human[joints + 2]
 
         # Legs, in base axes: place and velocity relative to the base.
-        dx, dy = x - base_x, y - base_y
+        dx, dy = human[0] - base_x, human[1] - base_y
         place_x, place_y = cos * dx + sin * dy, cos * dy - sin * dx
         own_vx, own_vy = cos * vx + sin * vy, cos * vy - sin * vx
         slip_x = own_vx - cos * base_vx - sin * base_vy + base_rate * place_y
         slip_y = own_vy - cos * base_vy + sin * base_vx - base_rate * place_x
         turn = self._mass * base_rate
         target_x, target_y, target_yaw = self._place
-        lean = yaw - base_yaw
+        lean = human[2] - base_yaw
+        legs_x = legs_y = 0.0
+        if self.gait.enabled:
+            sway_x, sway_y, sway_vx, sway_vy, ax, ay = self.gait.update(own_vx)
+            target_x += sway_x
+            target_y += sway_y
+            slip_x -= sway_vx
+            slip_y -= sway_vy
+            legs_x, legs_y = self._mass * ax, self._mass * ay
         legs = self._legs
         legs.append(
             (
@@ -164,31 +174,32 @@ class Walker:
             )
         )
         push_x, push_y = push
-        legs_x, legs_y, legs_yaw = legs.popleft()
-        legs_x += push_x
-        legs_y += push_y
+        late_x, late_y, legs_yaw = legs.popleft()
+        legs_x += late_x + push_x
+        legs_y += late_y + push_y
 
-        # Arm, in trunk axes.
-        upper, fore = self._arm.upper, self._arm.fore
-        arm_x, arm_y = upper * math.cos(shoulder), upper * math.sin(shoulder)
-        bent = shoulder + elbow
-        fore_x, fore_y = fore * math.cos(bent), fore * math.sin(bent)
-        bent_rate = shoulder_rate + elbow_rate
-        hand_x = self._arm.shoulder[0] + arm_x + fore_x
-        hand_y = self._arm.shoulder[1] + arm_y + fore_y
+        # Arms, in trunk axes.
         lean_cos, lean_sin = math.cos(lean), math.sin(lean)
-        own_x = lean_cos * push_x + lean_sin * push_y
-        own_y = lean_cos * push_y - lean_sin * push_x
-        legs_yaw += hand_x * own_y - hand_y * own_x
-        k, b = p.hand_stiffness, p.hand_damping
-        own_x += k * (self._rest[0] - hand_x) + b * (arm_y * shoulder_rate + fore_y * bent_rate)
-        own_y += k * (self._rest[1] - hand_y) - b * (arm_x * shoulder_rate + fore_x * bent_rate)
-        at_elbow = fore_x * own_y - fore_y * own_x
-        at_shoulder = arm_x * own_y - arm_y * own_x + at_elbow
-        return (
-            cos * legs_x - sin * legs_y,
-            sin * legs_x + cos * legs_y,
-            legs_yaw,
-            at_shoulder,
-            at_elbow,
-        )
+        share, (k, b) = self._share, self._hand
+        pushed_x = share * (lean_cos * push_x + lean_sin * push_y)
+        pushed_y = share * (lean_cos * push_y - lean_sin * push_x)
+        forces = [cos * legs_x - sin * legs_y, sin * legs_x + cos * legs_y, 0.0]
+        for joint, shoulder_x, shoulder_y, upper, fore, rest_x, rest_y in self._arms:
+            shoulder, bent = human[joint], human[joint] + human[joint + 1]
+            shoulder_rate = human[joints + joint]
+            bent_rate = shoulder_rate + human[joints + joint + 1]
+            arm_x, arm_y = upper * math.cos(shoulder), upper * math.sin(shoulder)
+            fore_x, fore_y = fore * math.cos(bent), fore * math.sin(bent)
+            hand_x, hand_y = shoulder_x + arm_x + fore_x, shoulder_y + arm_y + fore_y
+            legs_yaw += hand_x * pushed_y - hand_y * pushed_x
+            own_x = (
+                pushed_x + k * (rest_x - hand_x) + b * (arm_y * shoulder_rate + fore_y * bent_rate)
+            )
+            own_y = (
+                pushed_y + k * (rest_y - hand_y) - b * (arm_x * shoulder_rate + fore_x * bent_rate)
+            )
+            at_elbow = fore_x * own_y - fore_y * own_x
+            forces.append(arm_x * own_y - arm_y * own_x + at_elbow)
+            forces.append(at_elbow)
+        forces[2] = legs_yaw
+        return forces

@@ -6,14 +6,27 @@ from typing import Any
 
 import numpy as np
 
+from .errors import InputError
+
 _image: Any = None
 
 
 def show(picture: np.ndarray) -> None:
-    """Show a picture, uint8, shape (height, width, 3), in one window that is reused."""
+    """Show a picture, uint8, shape (height, width, 3), in one window that is reused.
+
+    Raises
+    ------
+    InputError
+        If no window can be opened.
+    """
     global _image
     from matplotlib import pyplot as plt
 
+    if plt.get_backend().lower() == "agg":  # what matplotlib falls back to
+        raise InputError(
+            "no window can be opened: there is no display, or no toolkit that matplotlib can draw "
+            "windows with; run without the window"
+        )
     if _image is None or not plt.fignum_exists(_image.figure.number):
         figure = plt.figure("cowalk", figsize=(8, 6))
         axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))

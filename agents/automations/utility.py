@@ -14,7 +14,7 @@ from cowalk.sim.motion import Array
 
 from .planner import Problem
 
-_SHARES = np.linspace(0.0, 1.0, 33)
+_SHARES = np.linspace(0.0, 1.0, 17), np.linspace(0.0, 1.0, 9)
 _AGREED = 1e-12
 
 
@@ -55,12 +55,16 @@ def negotiated(problem: Problem, own: Array, human: Array, target: Array) -> Arr
     costs = problem.cost(np.stack((human, own), axis=-2))
     human_cost, own_cost = costs[..., :1], costs[..., 1:]
     goal = np.broadcast_to(target, own.shape[:-1])[..., None]
-    points = problem.front(np.broadcast_to(_SHARES, (*goal.shape[:-1], _SHARES.size)), own, human)
-    value = utility(problem.cost(points), human_cost, own_cost)
-    # Utility rises along the front: the first point at or above the target closes the bracket.
-    reached = value >= goal
-    last = np.where(reached.any(axis=-1), np.argmax(reached, axis=-1), _SHARES.size - 1)
-    pair = np.maximum(last - 1, 0)[..., None], np.maximum(last, 1)[..., None]
+    low, high = np.zeros_like(goal), np.ones_like(goal)
+    for shares in _SHARES:
+        share = low + (high - low) * shares
+        points = problem.front(share, own, human)
+        value = utility(problem.cost(points), human_cost, own_cost)
+        # Utility rises along the front: the first point at or above the target closes a bracket.
+        reached = value >= goal
+        last = np.where(reached.any(axis=-1), np.argmax(reached, axis=-1), shares.size - 1)
+        pair = np.maximum(last - 1, 0)[..., None], np.maximum(last, 1)[..., None]
+        low, high = (np.take_along_axis(share, at, axis=-1) for at in pair)
     before, after = (np.take_along_axis(value, at, axis=-1) for at in pair)
     step = after - before
     weight = np.clip((goal - before) / np.where(step > 0.0, step, 1.0), 0.0, 1.0)

@@ -266,5 +266,6 @@ def _rows(m: Elementwise, obstacles: Array) -> list[Value]:
     for i in range(obstacles.shape[-2]):
         if not obstacles[..., i, 0].any():
             break  # rows in use come first
-        rows.append(m.parts(obstacles[..., i, :4]))
+        # One copy of the row: its values lie far apart in a batch.
+        rows.append(m.parts(obstacles[..., i, :4].copy()))
     return rows

@@ -165,6 +165,39 @@ def test_bad_input_is_one_line_that_names_what_would_be_right(refused, scenario_
         assert words in refused(*arguments)
 
 
+def test_a_run_is_filmed_and_recorded_on_demand(cowalk, scenario_file, folder):
+    pytest.importorskip("rerun", reason="the extra 'rerun' is not installed")
+    watched = ("--video", "films/walk.mp4", "--rerun", "walk.rrd")
+    code, out, err = cowalk("run", scenario_file(), "--set", "duration=0.2", *watched)
+    assert (code, err) == (0, "")
+    assert "video:    films/walk.mp4" in out
+    assert "rerun:    walk.rrd" in out
+    assert (folder / "films/walk.mp4").stat().st_size > 1000
+    assert (folder / "walk.rrd").stat().st_size > 1000
+    code, out, _ = cowalk("run", scenario_file(), "--json", "--set", "duration=0.2", *watched[:2])
+    assert json.loads(out)["video"] == "films/walk.mp4"
+
+
+def test_a_run_that_cannot_be_watched_is_refused(refused, scenario_file, monkeypatch):
+    words = "--video walk.avi: the name must end in .mp4"
+    assert words in refused("run", scenario_file(), "--video", "walk.avi")
+    words = "--rerun walk.txt: the name must end in .rrd"
+    assert words in refused("run", scenario_file(), "--rerun", "walk.txt")
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
+    assert "pip install imageio-ffmpeg" in refused("run", scenario_file(), "--video", "a.mp4")
+    monkeypatch.setitem(sys.modules, "rerun", None)
+    assert "pip install 'cowalk[rerun]'" in refused("run", scenario_file(), "--rerun", "a.rrd")
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="a display is needed on Linux alone")
+@pytest.mark.parametrize("plant", ["bullet", "unicycle"])
+def test_no_window_without_a_display(refused, scenario_file, monkeypatch, plant):
+    monkeypatch.setenv("DISPLAY", ":4711")
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    said = refused("run", scenario_file(), "--gui", "--plant", plant)
+    assert "no window can be opened" in said
+
+
 def test_a_folder_that_cannot_be_written_is_refused_before_the_run(
     refused, scenario_file, folder, monkeypatch
 ):

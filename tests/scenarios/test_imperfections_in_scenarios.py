@@ -1,5 +1,6 @@
 """Imperfections as a scenario file names them: checked with a line, swapped, kept, resolved."""
 
+import numpy as np
 import pytest
 import yaml
 
@@ -86,3 +87,14 @@ def test_a_kept_run_has_their_defaults_written_out(walk, tmp_path):
     again = tmp_path / "again.scenario.yaml"
     again.write_text(to_yaml(load(walk())))
     assert load(again) == load(walk())
+
+
+def test_a_reaction_delay_makes_a_human_weave_who_is_always_yielded_to():
+    def weaving(*changes):
+        pair = ["plant=unicycle", "human=steady", "automation=always-yields", "expect={}"]
+        trace = run(load("puddle", [*pair, *changes])).trace
+        return np.abs(trace["true_omega"] - trace["omega"])[-100:].max()
+
+    prompt = weaving()
+    assert weaving("human.imperfections=[reaction-delay]") > 2.0 * prompt
+    assert weaving("human.intention.lookahead=3.2") < 0.2 * prompt

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from cowalk.sim import parallel_env
+from cowalk.sim import bullet_scenery, parallel_env
 from cowalk.sim.bullet_engine import connect, disconnect, engine
 from cowalk.sim.bullet_scenery import SHIRTS, Scenery
 from cowalk.sim.motion import Path
@@ -44,12 +44,11 @@ def test_a_person_walks_with_all_parts():
         assert np.mean(shirt, axis=0)[:2] == pytest.approx((4.0, y), abs=0.02)
 
 
-def test_a_side_corridor_has_a_floor():
-    world = World(PATH, Corridor(3.0, (), (SideCorridor(5.0, 2.0, "right", 3.0),)))
-    tiles = [place for place, size, _ in boxes(world) if size[2] == pytest.approx(0.02)]
-    assert min(place[1] for place in tiles) < -3.5
-    beside = [place for place in tiles if place[1] < -1.5]
-    assert all(4.0 < place[0] < 6.0 for place in beside)
+def test_a_side_corridor_has_a_floor(monkeypatch):
+    laid = []
+    monkeypatch.setattr(bullet_scenery, "lay_floor", lambda _, *edges: laid.append(edges))
+    boxes(World(PATH, Corridor(3.0, (), (SideCorridor(5.0, 2.0, "right", 3.0),))))
+    assert laid == [((4.0, 6.0), (-4.5, -1.5)), ((-6.0, 16.0), (-1.5, 1.5))]
 
 
 def test_watching_shows_somebody_who_passes():

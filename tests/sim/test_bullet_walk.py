@@ -7,9 +7,11 @@ import sys
 import numpy as np
 import pytest
 
+from cowalk.sim.anthropometry import BodyParameters
 from cowalk.sim.bullet import BulletPlant
 from cowalk.sim.bullet_engine import connect, engine
 from cowalk.sim.errors import InputError, SimulationError
+from cowalk.sim.human_body import human_body
 from cowalk.sim.motion import Path
 from cowalk.sim.plant import Rates
 from cowalk.sim.world import Corridor, Obstacle, World
@@ -61,15 +63,18 @@ def test_turning_reads_the_arms_centripetal_share():
     assert states[-1].twist == pytest.approx((speed, rate), abs=0.002)
     # Two links, hinged at shoulder, elbow and hand, each loaded with -m a at its centre: the
     # moments of the whole arm about the shoulder and of the forearm about the elbow vanish.
-    shoulder, elbow = 2.016463, -1.969935
+    human = human_body(BodyParameters(), ((0.15, -0.30, 1.04),))
+    (arm,), (shoulder, elbow) = human.arms, human.posture
     along = np.array([math.cos(shoulder), math.sin(shoulder)])
     beyond = np.array([math.cos(shoulder + elbow), math.sin(shoulder + elbow)])
-    joint = np.array([-0.10, -0.45])
-    upper, fore = joint + 0.0654 * along, joint + 0.15 * along + 0.166 * beyond
-    bend, hand = joint + 0.15 * along, joint + 0.15 * along + 0.315 * beyond
+    joint = np.array(human.place[:2]) + arm.shoulder
+    bend = joint + arm.upper.length * along
+    upper, fore = joint + arm.upper.centre * along, bend + arm.fore.centre * beyond
+    hand = bend + arm.fore.length * beyond
+    assert hand == pytest.approx((0.15, -0.30))
     centre = np.array([0.0, speed / rate])
-    load_upper = -1.96 * rate**2 * (centre - upper)
-    load_fore = -1.54 * rate**2 * (centre - fore)
+    load_upper = -arm.upper.mass * rate**2 * (centre - upper)
+    load_fore = -arm.fore.mass * rate**2 * (centre - fore)
 
     def moment(arm, load):
         return arm[0] * load[1] - arm[1] * load[0]

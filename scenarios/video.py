@@ -1,0 +1,212 @@
+"""A run as a video: chase and top camera, force, both wishes, beliefs beside the truth."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from cowalk.sim import topview
+from cowalk.sim.bullet_scene import photograph
+from cowalk.sim.camera import Camera, level_camera
+from cowalk.sim.errors import InputError, SimulationError
+from cowalk.sim.motion import compose
+from cowalk.sim.plant import BASE_RADIUS
+
+from .figures_style import AUTOMATION, HUMAN
+from .results import UNITS
+from .video_frame import (
+    FORCE,
+    HEADER,
+    HEIGHT,
+    INSET,
+    METRES_PER_NEWTON,
+    PALE,
+    VIEW,
+    WIDTH,
+    Frame,
+    draw_arrow,
+    draw_band,
+    draw_shadow,
+)
+from .watching import Filmed, arc_points, writable_file
+
+if TYPE_CHECKING:
+    from cowalk.sim.env import CowalkEnv
+
+    from .results import Trace
+    from .schema import Scenario
+
+FRAMES_PER_SECOND = 20
+"""At most about so many; a slower control rate gives a frame each step."""
+BANDS = (
+    ("true", 0.16, PALE, 0.8),
+    ("est", 0.07, HUMAN, 0.9),
+    ("wish", 0.07, AUTOMATION, 0.9),
+)
+"""Prefix of the trace columns, width in m, colour and opacity of each wish, undermost first."""
+
+
+class Video:
+    """A watcher that writes an H.264 video, in real time at the control rate.
+
+    A plant without cameras is drawn from above. The file can be played whatever ends the run.
+
+    Parameters
+    ----------
+    file : str or Path
+        Ends in ``.mp4``; its folder is created.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written, or no video encoder is installed.
+    """
+
+    def __init__(self, file: str | Path) -> None:
+        self.file = writable_file(file, "--video", ".mp4")
+        self._encoder = _encoder()
+        self._process: subprocess.Popen[bytes] | None = None
+
+    def start(self, scenario: Scenario, env: CowalkEnv) -> None:
+        """See `Watcher.start`."""
+        self._every = max(1, round(scenario.rates.control / FRAMES_PER_SECOND))
+        self._horizon = scenario.automation.negotiation.horizon
+        self._frame = Frame(
+            scenario.name,
+            f"human {scenario.human.name}    automation {scenario.automation.name}    "
+            f"plant {scenario.plant.name}    seed {scenario.seed}",
+        )
+        rate = f"{scenario.rates.control}/{self._every}"
+        raw = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{WIDTH}x{HEIGHT}", "-r", rate]
+        packed = ["-c:v", "libx264", "-preset", "veryfast", "-crf", "23", "-pix_fmt", "yuv420p"]
+        # Written in fragments of 2 s that play by themselves, joined at the end: what there is
+        # can be played even if the encoder is killed.
+        packed += ["-g", str(2 * FRAMES_PER_SECOND), "-movflags", "hybrid_fragmented"]
+        self._process = subprocess.Popen(
+            [self._encoder, "-y", "-v", "error", *raw, "-i", "-", *packed, str(self.file)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            start_new_session=True,  # an interrupt from the keyboard is ours alone
+        )
+
+    def step(self, env: CowalkEnv, trace: Trace) -> None:
+        """See `Watcher.step`."""
+        if (len(trace) - 1) % self._every:
+            return
+        assert self._process is not None
+        assert self._process.stdin is not None
+        try:
+            self._process.stdin.write(self.picture(env, trace).tobytes())
+        except OSError as error:
+            raise SimulationError(self._failure()) from error
+
+    def picture(self, env: CowalkEnv, trace: Trace) -> NDArray[np.uint8]:
+        """Return the frame of the trace's last row, uint8, shape (544, 960, 3)."""
+        row = dict(zip(UNITS, trace.values[-1].tolist(), strict=True))
+        frame = self._frame
+        frame.clear()
+        frame.clock(row["t"])
+        plant = env.plant
+        if isinstance(plant, Filmed):
+            viewer = plant.viewer()
+            for kind, size, place in (
+                ("chase", VIEW, (0, HEADER)),
+                ("top", INSET, (VIEW[0], HEADER)),
+            ):
+                camera = viewer.camera(kind, *size)
+                seen, actors = photograph(viewer.client, camera)
+                image = Image.fromarray(seen)
+                draw_shadow(image, camera, np.array([row["x"], row["y"]]), BASE_RADIUS)
+                draw_shadow(image, camera, np.array([row["human_x"], row["human_y"]]), 0.3)
+                self._draw_wishes(image, camera, row)
+                image.paste(Image.fromarray(seen), mask=Image.fromarray(actors))
+                _draw_force(image, camera, row, plant.handle)
+                frame.place(image, *place)
+            top = HEADER + INSET[1]
+        else:
+            camera = level_camera(*topview.window(env.world, env.plant_state, *VIEW), *VIEW)
+            drawn = topview.draw(env.world, env.plant_state, *VIEW, force=False)
+            image = Image.fromarray(drawn)
+            self._draw_wishes(image, camera, row)
+            _draw_force(image, camera, row, (0.0, 0.0, 0.0))
+            frame.place(image, 0, HEADER)
+            top = HEADER + 60
+        _gauges(frame, top, row)
+        return frame.pixels()
+
+    def _draw_wishes(self, image: Image.Image, camera: Camera, row: dict[str, float]) -> None:
+        pose = np.array([row["x"], row["y"], row["theta"]])
+        for prefix, width, colour, opacity in BANDS:
+            wish = np.array([row[f"{prefix}_v"], row[f"{prefix}_omega"]])
+            arc = arc_points(pose, wish, self._horizon)
+            draw_band(image, camera, arc, width, colour, opacity)
+
+    def close(self) -> None:
+        """See `Watcher.close`.
+
+        Raises
+        ------
+        SimulationError
+            If the video could not be finished.
+        """
+        process, self._process = self._process, None
+        if process is None:
+            return
+        _, said = process.communicate()
+        if process.returncode != 0:
+            raise SimulationError(self._failure(said))
+
+    def _failure(self, said: bytes | None = None) -> str:
+        if said is None and self._process is not None:
+            _, said = self._process.communicate()
+        self._process = None
+        reason = (said or b"").decode(errors="replace").strip().splitlines()
+        return f"the video {self.file} cannot be written: {reason[-1] if reason else 'no reason'}"
+
+
+def _draw_force(
+    image: Image.Image, camera: Camera, row: dict[str, float], handle: tuple[float, float, float]
+) -> None:
+    """Draw the measured force at the handle (base axes, m)."""
+    pose = (row["x"], row["y"], row["theta"])
+    x, y, height = handle
+    tip = (x + row["fx"] * METRES_PER_NEWTON, y + row["fy"] * METRES_PER_NEWTON, 0.0)
+    ends = compose(pose, [(x, y, 0.0), tip])
+    draw_arrow(image, *camera.project([(*end[:2], height) for end in ends]))
+
+
+def _gauges(frame: Frame, top: float, row: dict[str, float]) -> None:
+    frame.heading(top + 16, "the human's stubbornness")
+    frame.key(top + 38, ((PALE, "true"), (HUMAN, "believed by the automation")))
+    for line, (name, dimension) in enumerate((("forward", "v"), ("turning", "omega"))):
+        frame.gauge(
+            top + 60 + 25 * line,
+            name,
+            row[f"est_stubbornness_{dimension}"],
+            HUMAN,
+            row[f"true_stubbornness_{dimension}"],
+        )
+    frame.heading(top + 122, "utility the automation demands")
+    frame.gauge(top + 144, "target", row["target_utility"], AUTOMATION)
+    frame.heading(top + 182, "force on the handle")
+    frame.reading(top + 204, f"{row['fx']:+.1f} N forward   {row['fy']:+.1f} N left", "")
+    frame.key(top + 236, ((FORCE, "force"), (HUMAN, "human's wish"), (AUTOMATION, "automation's")))
+
+
+def _encoder() -> str:
+    """Return the path of ffmpeg."""
+    try:
+        from imageio_ffmpeg import get_ffmpeg_exe
+
+        found: str = get_ffmpeg_exe()
+    except (ImportError, RuntimeError) as error:
+        raise InputError(
+            "--video needs a video encoder, which is not installed: pip install imageio-ffmpeg"
+        ) from error
+    return found

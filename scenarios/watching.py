@@ -1,0 +1,142 @@
+"""Who watches a run: told of every control step, changing nothing."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
+
+import numpy as np
+
+from cowalk.sim.errors import InputError
+from cowalk.sim.motion import Array, arc_displacement, compose
+
+if TYPE_CHECKING:
+    from cowalk.sim.bullet_view import Viewer
+    from cowalk.sim.env import CowalkEnv
+
+    from .results import Trace
+    from .schema import Scenario
+
+
+class Watcher(Protocol):
+    """Sees a run from its start to its end; called by `cowalk.scenarios.run`."""
+
+    def start(self, scenario: Scenario, env: CowalkEnv) -> None:
+        """Prepare; the environment stands at its reset.
+
+        Raises
+        ------
+        InputError
+            If what is to be written cannot be.
+        """
+        ...
+
+    def step(self, env: CowalkEnv, trace: Trace) -> None:
+        """Look at the environment after a control step; the trace's last row tells of it.
+
+        Raises
+        ------
+        SimulationError
+            If watching cannot go on; the run then ends with what it has.
+        """
+        ...
+
+    def close(self) -> None:
+        """Finish. Called once, however the run ends, and even if it never started."""
+        ...
+
+
+@runtime_checkable
+class Filmed(Protocol):
+    """A plant whose bodies stand in an engine world that can be looked at."""
+
+    @property
+    def handle(self) -> tuple[float, float, float]:
+        """Where the handle is, base axes, m."""
+
+    def viewer(self) -> Viewer:
+        """Return what shows the plant as it is now."""
+
+
+def watchers(video: Path | None = None, recording: Path | None = None) -> list[Watcher]:
+    """Return the watchers that write what is asked for.
+
+    Parameters
+    ----------
+    video : Path, optional
+        ``.mp4``, see `cowalk.scenarios.video.Video`.
+    recording : Path, optional
+        ``.rrd``, see `cowalk.scenarios.recording.Recording`.
+
+    Raises
+    ------
+    InputError
+        If a file cannot be written, or what writes it is not installed.
+    """
+    # Each brings libraries that take a while to import.
+    found: list[Watcher] = []
+    if video is not None:
+        from .video import Video
+
+        found.append(Video(video))
+    if recording is not None:
+        from .recording import Recording
+
+        found.append(Recording(recording))
+    return found
+
+
+def writable_file(file: str | Path, option: str, suffix: str) -> Path:
+    """Return a file that can be written, its folder created.
+
+    Parameters
+    ----------
+    file : str or Path
+    option : str
+        Command-line option to blame.
+    suffix : str
+        How its name must end, with the dot.
+
+    Raises
+    ------
+    InputError
+        If it cannot be written, or its name ends otherwise.
+    """
+    path = Path(file)
+    if path.suffix.lower() != suffix:
+        raise InputError(f"{option} {file}: the name must end in {suffix}, as in run{suffix}")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        existed = path.exists()
+        path.open("ab").close()
+        if not existed:
+            path.unlink()
+    except OSError as error:
+        raise InputError(
+            f"{option} {file}: cannot write there ({error.strerror}); give a file in a folder "
+            "that can be written"
+        ) from error
+    return path
+
+
+def arc_points(pose: Array, twist: Array, horizon: float, count: int = 24) -> Array:
+    """Return points of the arc that a twist held over a horizon leads along.
+
+    Parameters
+    ----------
+    pose : ndarray, shape (3,)
+        Where it starts, world axes, m, m, rad.
+    twist : ndarray, shape (2,)
+        m/s and rad/s.
+    horizon : float
+        s.
+    count : int
+        Number of points.
+
+    Returns
+    -------
+    ndarray, shape (count, 3)
+        World x, y (m) and heading (rad); NaN for an unknown twist.
+    """
+    times = np.linspace(0.0, horizon, count)
+    return compose(pose, arc_displacement(np.broadcast_to(twist, (count, 2)), times))

@@ -1,0 +1,94 @@
+"""What stands between base and human: nothing but a handle, or a load that both carry."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from .bullet_bodies import Base, Slab
+from .bullet_engine import engine
+from .bullet_grip import Wrench
+from .errors import InputError
+from .urdf import Rigid, Vector
+
+COUPLINGS = ("handle", "stretcher")
+
+
+@dataclass(frozen=True)
+class CouplingParameters:
+    """How the two are joined.
+
+    Parameters
+    ----------
+    kind : {"handle", "stretcher"}
+        The human holds the base's handle; or a load between the two is clamped to the base at
+        one end and held by the human at the other. The measured wrench is that on the base.
+    mass, length, width : float
+        Of the load, kg and m (inferred: an empty stretcher).
+
+    Raises
+    ------
+    InputError
+        If the kind is unknown, or a number is not positive.
+    """
+
+    kind: str = "handle"
+    mass: float = 8.0
+    length: float = 1.2
+    width: float = 0.5
+
+    def __post_init__(self) -> None:
+        if self.kind not in COUPLINGS:
+            raise InputError(f"kind = {self.kind!r}: must be one of {', '.join(COUPLINGS)}")
+        for name in ("mass", "length", "width"):
+            if not getattr(self, name) > 0.0:
+                raise InputError(f"{name} = {getattr(self, name)}: must be above 0")
+
+
+class Load:
+    """A load clamped to the base's handle. Its origin is the clamp, it reaches backwards.
+
+    Parameters
+    ----------
+    parameters : CouplingParameters
+    client : int
+    base : Base
+    handle : (x, y, z)
+        Where it is clamped, base axes, m.
+    """
+
+    def __init__(
+        self,
+        parameters: CouplingParameters,
+        client: int,
+        base: Base,
+        handle: Vector,
+    ) -> None:
+        p = parameters
+        self._client = client
+        self.handle = handle
+        inertia = p.mass * (p.length**2 + p.width**2) / 12.0
+        rigid = Rigid(p.mass, (-p.length / 2.0, 0.0, handle[2]), inertia, {})
+        self.slab = Slab(client, "load", rigid)
+        self._clamp = engine.createConstraint(
+            base.body,
+            base.link,
+            self.slab.body,
+            self.slab.link,
+            engine.JOINT_FIXED,
+            (0.0, 0.0, 0.0),
+            base.pivot(handle),
+            self.slab.pivot((0.0, 0.0, handle[2])),
+            physicsClientId=client,
+        )
+
+    def read(self, cos: float, sin: float) -> Wrench:
+        """Return the load's wrench on the base about the clamp, in base axes (see `Hands.read`)."""
+        fx, fy, fz, mx, my, mz = engine.getConstraintState(self._clamp, self._client)
+        return (
+            cos * fx + sin * fy,
+            cos * fy - sin * fx,
+            fz,
+            cos * mx + sin * my,
+            cos * my - sin * mx,
+            mz,
+        )

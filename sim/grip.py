@@ -1,0 +1,118 @@
+"""What a hand does to what it holds: rigid or yielding, slipping, letting go. Pure."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from .errors import InputError
+
+GRIPS = ("rigid", "compliant")
+ON_LOSS = ("end", "stop")
+Triple = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class GripParameters:
+    """A hand around a handle. All defaults inferred, except where a source stands.
+
+    Parameters
+    ----------
+    kind : {"rigid", "compliant"}
+        Rigid holds the hand's place and leaves the wrist free but for its own stiffness;
+        compliant is a spring and damper in all six axes.
+    stiffness, damping : (float, float, float)
+        Of a compliant grip along handle axes x, y, z: N/m and N s/m.
+    turn_stiffness, turn_damping : (float, float, float)
+        Of wrist and grip about handle axes x, y, z: N m/rad and N m s/rad. On bodies that stay
+        upright only the last acts. A relaxed wrist has 0.5 to 3 N m/rad (inferred); 0 is a free
+        wrist, which hands over no torque.
+    slip_force : float, optional
+        Force beyond which a compliant grip slides along, N; None never does.
+    slip_length : float
+        How far it can slide before it is lost, m.
+    release_force : float, optional
+        Force beyond which the hand lets go, N; None never does.
+    on_loss : {"end", "stop"}
+        What a lost grip does: end the episode, or let the base come to a stop.
+
+    Raises
+    ------
+    InputError
+        If a kind is unknown or a number has the wrong sign.
+    """
+
+    kind: str = "rigid"
+    stiffness: Triple = (4000.0, 4000.0, 4000.0)
+    damping: Triple = (40.0, 40.0, 40.0)
+    turn_stiffness: Triple = (0.0, 0.0, 0.0)
+    turn_damping: Triple = (0.0, 0.0, 0.0)
+    slip_force: float | None = None
+    slip_length: float = 0.05
+    release_force: float | None = None
+    on_loss: str = "end"
+
+    def __post_init__(self) -> None:
+        if self.kind not in GRIPS:
+            raise InputError(f"kind = {self.kind!r}: must be one of {', '.join(GRIPS)}")
+        if self.on_loss not in ON_LOSS:
+            raise InputError(f"on_loss = {self.on_loss!r}: must be one of {', '.join(ON_LOSS)}")
+        for name in ("stiffness", "damping", "turn_stiffness", "turn_damping"):
+            value = getattr(self, name)
+            if len(value) != 3 or not min(value) >= 0.0:
+                raise InputError(f"{name} = {value}: must be 3 numbers of at least 0")
+        if self.kind == "compliant" and not min(self.stiffness[:2]) > 0.0:
+            raise InputError(f"stiffness = {self.stiffness}: must be above 0 along x and y")
+        for name in ("slip_force", "slip_length", "release_force"):
+            value = getattr(self, name)
+            if value is not None and not value > 0.0:
+                raise InputError(f"{name} = {value}: must be above 0")
+        if self.slip_force is not None and self.kind == "rigid":
+            raise InputError(f"slip_force = {self.slip_force}: only a compliant grip can slip")
+
+
+class Bushing:
+    """Spring and damper between a hand and a handle, whose anchor slides when pulled too hard.
+
+    F = K (d - anchor) + B d', per axis of the handle, d being the hand's place less the
+    handle's. Where |F| exceeds the slip force, the anchor follows so far that it does not.
+
+    Parameters
+    ----------
+    parameters : GripParameters
+    """
+
+    def __init__(self, parameters: GripParameters) -> None:
+        self._stiffness, self._damping = parameters.stiffness, parameters.damping
+        self._slip_force = math.inf if parameters.slip_force is None else parameters.slip_force
+        self._slip_length = parameters.slip_length
+        self.anchor = (0.0, 0.0)
+        """How far the grip has slid, handle axes, m."""
+
+    def force(self, offset: Triple, rate: Triple) -> Triple:
+        """Return the hand's force on the handle, N, handle axes.
+
+        Parameters
+        ----------
+        offset, rate : (x, y, z)
+            Of the hand from the handle, handle axes: m and m/s.
+        """
+        (kx, ky, kz), (bx, by, bz) = self._stiffness, self._damping
+        anchor_x, anchor_y = self.anchor
+        pull_x, pull_y = kx * (offset[0] - anchor_x), ky * (offset[1] - anchor_y)
+        fx, fy = pull_x + bx * rate[0], pull_y + by * rate[1]
+        force = math.hypot(fx, fy)
+        if force > self._slip_force:
+            share = self._slip_force / force
+            fx, fy = share * fx, share * fy
+            # What spring is left to give, so that force and anchor agree.
+            self.anchor = (
+                offset[0] - (fx - bx * rate[0]) / kx,
+                offset[1] - (fy - by * rate[1]) / ky,
+            )
+        return fx, fy, kz * offset[2] + bz * rate[2]
+
+    @property
+    def lost(self) -> bool:
+        """Whether it has slid off."""
+        return math.hypot(*self.anchor) > self._slip_length

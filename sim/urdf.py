@@ -1,0 +1,214 @@
+"""Reading and writing URDF as XML: what rigid bodies weigh as a whole, and plain chains. Pure."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+
+from .errors import InputError
+from .motion import Array
+
+Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Rigid:
+    """A robot with all its joints at zero, as one rigid body, in the axes of its root link.
+
+    Attributes
+    ----------
+    mass : float
+        kg.
+    centre : (x, y, z)
+        Centre of mass, m.
+    yaw_inertia : float
+        About the vertical through the centre of mass, kg m^2.
+    places : dict of str to (x, y, z)
+        Origin of every link, m.
+    """
+
+    mass: float
+    centre: Vector
+    yaw_inertia: float
+    places: dict[str, Vector]
+
+
+def read_robot(path: Path) -> ElementTree.Element:
+    """Return the root element of a URDF file.
+
+    Raises
+    ------
+    InputError
+        If there is no such file, or it is no URDF.
+    """
+    try:
+        root = ElementTree.parse(path).getroot()
+    except OSError as error:
+        raise InputError(f"robot.urdf = {str(path)!r}: no such file can be read") from error
+    except ElementTree.ParseError as error:
+        raise InputError(f"robot.urdf = {str(path)!r}: no XML: {error}") from error
+    if root.tag != "robot" or root.find("link") is None:
+        raise InputError(f"robot.urdf = {str(path)!r}: no <robot> with a <link> in it")
+    return root
+
+
+def _numbers(text: str | None) -> Array:
+    return np.array([float(part) for part in (text or "0 0 0").split()])
+
+
+def _origin(element: ElementTree.Element | None) -> tuple[Array, Array]:
+    """Return rotation (3, 3) and translation (3,) of an element's <origin>."""
+    origin = element.find("origin") if element is not None else None
+    if origin is None:
+        return np.eye(3), np.zeros(3)
+    return rotation(*_numbers(origin.get("rpy"))), _numbers(origin.get("xyz"))
+
+
+def rotation(roll: float, pitch: float, yaw: float) -> Array:
+    """Return the rotation matrix of fixed-axis roll, pitch, yaw (rad), shape (3, 3)."""
+    cr, sr, cp, sp = math.cos(roll), math.sin(roll), math.cos(pitch), math.sin(pitch)
+    cy, sy = math.cos(yaw), math.sin(yaw)
+    return np.array(
+        [
+            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+            [-sp, cp * sr, cp * cr],
+        ]
+    )
+
+
+def _inertia(element: ElementTree.Element) -> Array:
+    values = {k: float(v) for k, v in element.items()}
+    off = [values.get(key, 0.0) for key in ("ixy", "ixz", "iyz")]
+    return np.array(
+        [
+            [values.get("ixx", 0.0), off[0], off[1]],
+            [off[0], values.get("iyy", 0.0), off[2]],
+            [off[1], off[2], values.get("izz", 0.0)],
+        ]
+    )
+
+
+def lump(root: ElementTree.Element) -> Rigid:
+    """Return a robot as one rigid body, all joints at zero.
+
+    Raises
+    ------
+    InputError
+        If it has no mass, or its joints do not form one tree.
+    """
+    children = {j.find("child").get("link"): j for j in root.iter("joint") if _joint(j)}  # type: ignore[union-attr]
+    frames: dict[str, tuple[Array, Array]] = {}
+
+    def frame(name: str, depth: int = 0) -> tuple[Array, Array]:
+        if name not in frames:
+            joint = children.get(name)
+            if joint is None:
+                frames[name] = np.eye(3), np.zeros(3)
+            else:
+                if depth > len(children):
+                    raise InputError(f"robot: the joints above link {name!r} form a loop")
+                turn, shift = frame(joint.find("parent").get("link"), depth + 1)  # type: ignore[union-attr,arg-type]
+                own_turn, own_shift = _origin(joint)
+                frames[name] = turn @ own_turn, shift + turn @ own_shift
+        return frames[name]
+
+    names = [link.get("name", "") for link in root.iter("link")]
+    if len(roots := [name for name in names if name not in children]) != 1:
+        raise InputError(f"robot: {len(roots)} links are no joint's child ({', '.join(roots)})")
+    parts = []
+    for link in root.iter("link"):
+        turn, shift = frame(link.get("name", ""))
+        inertial = link.find("inertial")
+        mass = inertial.find("mass") if inertial is not None else None
+        if inertial is None or mass is None or float(mass.get("value", 0.0)) <= 0.0:
+            continue
+        own_turn, own_shift = _origin(inertial)
+        element, turned = inertial.find("inertia"), turn @ own_turn
+        inertia = turned @ _inertia(element) @ turned.T if element is not None else np.zeros((3, 3))
+        parts.append((float(mass.get("value", 0.0)), shift + turn @ own_shift, inertia[2, 2]))
+    total = sum(mass for mass, _, _ in parts)
+    if total <= 0.0:
+        raise InputError("robot: its links have no mass")
+    centre = sum((mass * place for mass, place, _ in parts), np.zeros(3)) / total
+    yaw = sum(izz + m * float(np.sum((p - centre)[:2] ** 2)) for m, p, izz in parts)
+    places = {name: _vector(frame(name)[1]) for name in names}
+    return Rigid(total, _vector(centre), float(yaw), places)
+
+
+def _joint(joint: ElementTree.Element) -> bool:
+    return joint.find("child") is not None and joint.find("parent") is not None
+
+
+def _vector(array: Array) -> Vector:
+    x, y, z = (float(v) for v in array)
+    return x, y, z
+
+
+def mirrored(root: ElementTree.Element) -> ElementTree.Element:
+    """Return a robot with left and right swapped (y to -y), for bodies of plain shapes."""
+    copy = ElementTree.fromstring(ElementTree.tostring(root))
+    for origin in copy.iter("origin"):
+        x, y, z = _numbers(origin.get("xyz"))
+        roll, pitch, yaw = _numbers(origin.get("rpy"))
+        origin.set("xyz", f"{x} {-y} {z}")
+        origin.set("rpy", f"{-roll} {pitch} {-yaw}")
+    return copy
+
+
+LOCKED = '<link name="{0}"><inertial><mass value="0"/><inertia ixx="0" iyy="0" izz="0" ixy="0" ixz="0" iyz="0"/></inertial></link>'  # noqa: E501
+
+
+def link(name: str, mass: float, centre: Vector, yaw_inertia: float) -> str:
+    """Return a link that only turns about the vertical, so that one moment of inertia is enough."""
+    x, y, z = centre
+    return (
+        f'<link name="{name}"><inertial><origin xyz="{x!r} {y!r} {z!r}"/><mass value="{mass!r}"/>'
+        f'<inertia ixx="{yaw_inertia!r}" iyy="{yaw_inertia!r}" izz="{yaw_inertia!r}" '
+        'ixy="0" ixz="0" iyz="0"/></inertial></link>'
+    )
+
+
+def hinge(
+    name: str,
+    parent: str,
+    child: str,
+    place: Vector = (0.0, 0.0, 0.0),
+    limits: tuple[float, float] | None = None,
+) -> str:
+    """Return a joint about the vertical, with or without limits (rad)."""
+    x, y, z = place
+    kind, limit = "continuous", ""
+    if limits is not None:
+        kind = "revolute"
+        limit = f'<limit lower="{limits[0]!r}" upper="{limits[1]!r}" effort="1e9" velocity="1e9"/>'
+    return (
+        f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>'
+        f'<origin xyz="{x!r} {y!r} {z!r}"/><axis xyz="0 0 1"/>{limit}</joint>'
+    )
+
+
+def planar(name: str, root_link: str, parts: str) -> str:
+    """Return a robot whose ``root_link``, among ``parts``, slides and turns on the floor.
+
+    The engine's planar joint cannot be driven from Python; a chain x, y, yaw can.
+    """
+    slide = (
+        '<joint name="{0}" type="prismatic"><parent link="{1}"/><child link="{2}"/>'
+        '<axis xyz="{3}"/><limit lower="1" upper="-1" effort="1e9" velocity="1e9"/></joint>'
+    )
+    return "".join(
+        (
+            f'<robot name="{name}">',
+            *(LOCKED.format(part) for part in ("ground", "slide_x", "slide_y")),
+            slide.format("x", "ground", "slide_x", "1 0 0"),
+            slide.format("y", "slide_x", "slide_y", "0 1 0"),
+            hinge("yaw", "slide_y", root_link),
+            parts,
+            "</robot>",
+        )
+    )

@@ -1,0 +1,103 @@
+"""Robots as one rigid body, mirrored, and from a user's own file."""
+
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from cowalk.sim.bullet import BulletPlant
+from cowalk.sim.bullet_engine import connect, disconnect, engine, load
+from cowalk.sim.errors import InputError
+from cowalk.sim.human_body import human_body
+from cowalk.sim.human_figure import BodyParameters, figure_urdf
+from cowalk.sim.motion import Path
+from cowalk.sim.plant import Rates
+from cowalk.sim.robot import RobotParameters, robot_of
+from cowalk.sim.urdf import lump, mirrored
+from cowalk.sim.world import World
+
+OWN = """<robot name="own">
+  <link name="chassis"><inertial><origin xyz="0 0 0.2"/><mass value="20"/>
+    <inertia ixx="1" iyy="1" izz="2" ixy="0" ixz="0" iyz="0"/></inertial>
+    <visual><geometry><box size="0.5 0.4 0.3"/></geometry></visual></link>
+  <link name="mast"><inertial><origin xyz="0 0 0.5" rpy="1.5707963267948966 0 0"/>
+    <mass value="5"/><inertia ixx="0.1" iyy="0.3" izz="0.2" ixy="0" ixz="0" iyz="0"/></inertial>
+  </link>
+  <link name="grip"/>
+  <joint name="mast" type="revolute"><parent link="chassis"/><child link="mast"/>
+    <origin xyz="0.2 -0.1 0.3"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+  <joint name="grip" type="fixed"><parent link="mast"/><child link="grip"/>
+    <origin xyz="0 -0.2 0.7"/></joint>
+</robot>"""
+
+
+@pytest.fixture
+def own(tmp_path):
+    path = tmp_path / "own.urdf"
+    path.write_text(OWN)
+    return path
+
+
+def test_a_tree_as_one_rigid_body():
+    rigid = lump(ElementTree.fromstring(OWN))
+    assert rigid.mass == 25.0
+    assert rigid.centre == pytest.approx((0.04, -0.02, (20 * 0.2 + 5 * 0.8) / 25))
+    # The mast's inertial frame lies on its side: its y axis is vertical. Steiner for the rest.
+    steiner = 20 * (0.04**2 + 0.02**2) + 5 * (0.16**2 + 0.08**2)
+    assert rigid.yaw_inertia == pytest.approx(2.0 + 0.3 + steiner)
+    assert rigid.places["grip"] == pytest.approx((0.2, -0.3, 1.0))
+
+
+def test_mirroring_twice_changes_nothing():
+    root = ElementTree.fromstring(OWN)
+    once, twice = lump(mirrored(root)), lump(mirrored(mirrored(root)))
+    assert once.places["grip"] == pytest.approx((0.2, 0.3, 1.0))
+    assert twice.places["grip"] == pytest.approx(lump(root).places["grip"])
+    assert once.yaw_inertia == pytest.approx(twice.yaw_inertia)
+
+
+def test_a_users_robot_walks_with_its_own_mass(own):
+    plant = BulletPlant(
+        Rates(), robot=RobotParameters(str(own), "grip"), drive={"gain_forward": 500.0}
+    )
+    plant.reset(World(Path(((0, 0), (20, 0)))), np.random.default_rng(0))
+    states = [plant.step((0.8, 0.0), (4.0, 0.0)) for _ in range(120)]
+    assert plant.render(64, 48).std() > 5.0
+    plant.close()
+    assert states[-1].force_on_base.mean(axis=0) == pytest.approx((4.0, 0.0), abs=0.1)
+    assert states[-1].twist[0] == pytest.approx(0.8 + 4.0 / 500.0, abs=1e-3)
+    assert states[-1].human_pose[1] == pytest.approx(-0.30 - 0.35 + states[-1].pose[1], abs=0.05)
+
+
+@pytest.mark.parametrize(
+    ("text", "named"),
+    [
+        (None, "no such file can be read"),
+        ("<robot>", "no XML"),
+        ("<sdf/>", "no <robot> with a <link>"),
+        ("<robot><link name='a'/></robot>", "its links have no mass"),
+    ],
+)
+def test_a_file_that_is_no_robot(tmp_path, text, named):
+    path = tmp_path / "robot.urdf"
+    if text is not None:
+        path.write_text(text)
+    with pytest.raises(InputError, match=named):
+        robot_of(RobotParameters(str(path)), "left", "handle")
+
+
+def test_a_missing_handle_names_the_links(own):
+    with pytest.raises(InputError, match=r"no link 'gripp'; did you mean 'grip'\? Known: chassis"):
+        robot_of(RobotParameters(str(own), "gripp"), "left", "handle")
+
+
+@pytest.mark.parametrize("hand", ["left", "right", "both"])
+def test_the_figure_loads_with_all_its_limbs(hand):
+    handles = ((-0.3, 0.2, 1.0), (-0.3, -0.2, 1.0))
+    body = human_body(BodyParameters(hand=hand), handles if hand == "both" else handles[:1])
+    client = connect()
+    figure = load(client, figure_urdf(body))
+    arms = 2 * len(body.arms) + 2 - len(body.arms)
+    assert engine.getNumJoints(figure, client) == 6 + arms
+    disconnect(client)
