@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from cowalk.sim.motion import Array, Path, TwistBounds
+from cowalk.sim.observation import OBSTACLE_COLUMNS, OBSTACLE_ROWS
 
 from .interfaces import Belief, Observation, Situation, Truth
 
@@ -33,12 +34,13 @@ def observations(size: float) -> Iterator[Observation]:
         time = step * SITUATION.period
         v, omega = 0.7 + 0.2 * size * np.sin(2.0 * time), 0.25 * size * np.cos(1.4 * time)
         pose = pose + SITUATION.period * np.array([v, v * np.sin(pose[2]), omega])
-        puddle = np.zeros((8, 4))
-        puddle[0] = (1.0, 4.0 - pose[0], -0.6 - pose[1], 0.3)
+        puddle = np.zeros((OBSTACLE_ROWS, OBSTACLE_COLUMNS))
+        puddle[0, :4] = (1.0, 4.0 - pose[0], -0.6 - pose[1], 0.3)
         force = np.array([1.5 * size * np.sin(time), 3.0 * size * np.cos(0.9 * time)])
         yield Observation(
             twist=np.array([v, omega]),
             force=np.tile(force, (12, 1)),
+            force_valid=np.ones(12),
             pose=pose.copy(),
             pose_world=pose.copy(),  # the path is the world's x axis
             obstacles=puddle,

@@ -15,7 +15,9 @@ from . import (
     humans,
     imperfections,
     plant_options,
+    sensing,
     shares,
+    surroundings,
 )
 
 SUBJECTS = {
@@ -27,6 +29,8 @@ SUBJECTS = {
     "environments": environments.measure,
     "human models": humans.measure,
     "imperfections": imperfections.measure,
+    "force sensor": sensing.measure,
+    "distances and sight": surroundings.measure,
 }
 
 

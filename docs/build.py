@@ -6,9 +6,12 @@ import re
 import subprocess
 import sys
 import tempfile
+from dataclasses import asdict
 from pathlib import Path
 
 from imageio_ffmpeg import get_ffmpeg_exe
+
+from cowalk.sim.sensor_parameters import PRESETS
 
 DOCS = Path(__file__).parent
 ROOT = DOCS.parent
@@ -46,6 +49,17 @@ def fenced(text: str, language: str = "text") -> str:
     return f"```{language}\n{text}\n```"
 
 
+def preset_table() -> str:
+    """Return the sensor presets as a table, a column each."""
+    columns = {name: asdict(parameters) for name, (_, parameters) in PRESETS.items()}
+    lines = ["| key | " + " | ".join(columns) + " |", "|---" * (len(columns) + 1) + "|"]
+    lines += [
+        f"| `{key}` | " + " | ".join(str(column[key]) for column in columns.values()) + " |"
+        for key in next(iter(columns.values()))
+    ]
+    return "\n".join(lines)
+
+
 def main() -> None:
     """Rerun and quote everything."""
     images = DOCS / "images"
@@ -63,9 +77,11 @@ def main() -> None:
         (images / "paper.png").write_bytes(Path(folder, "panels.png").read_bytes())
     output("humans", "table", "--write", str(DOCS / "humans.md"))
     quote(DOCS / "model.md", "paper", fenced(output("paper")))
-    puddle = (ROOT / "scenarios" / "library" / "puddle.scenario.yaml").read_text().rstrip()
+    for file, name in (("scenarios.md", "puddle"), ("world.md", "doorway")):
+        text = (ROOT / "scenarios" / "library" / f"{name}.scenario.yaml").read_text().rstrip()
+        quote(DOCS / file, name, fenced(text, "yaml"))
+    quote(DOCS / "sensor.md", "presets", preset_table())
     quote(DOCS / "plant.md", "contact-noise", measured("contact noise"))
-    quote(DOCS / "scenarios.md", "puddle", fenced(puddle, "yaml"))
 
 
 if __name__ == "__main__":

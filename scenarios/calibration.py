@@ -84,9 +84,10 @@ def simulate(omega_bound: Array, horizon: Array, turn_weight: Array) -> dict[str
         observation = Observation(
             twist=twist,
             force=np.zeros((lanes, 1, 2)),
+            force_valid=np.ones((lanes, 1)),
             pose=scenario.world.path.relative_pose(pose),
             pose_world=pose,
-            obstacles=np.zeros((lanes, 0, 4)),
+            obstacles=np.zeros((lanes, 0, 6)),
             # The sensor reports the control step that ends now, decided a period ago.
             time=np.full((lanes, 1), now - scenario.rates.period),
         )

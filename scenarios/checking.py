@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from typing import Any, TypeVar
 
 from pydantic import ValidationError
@@ -11,6 +12,8 @@ from cowalk.estimation.smoothing import SMOOTHERS
 from cowalk.sim.errors import InputError
 from cowalk.sim.plants import PLANTS
 from cowalk.sim.registry import Registry
+from cowalk.sim.sensor import ForceSensor
+from cowalk.sim.sensor_parameters import SensorParameters, sensor_preset
 
 from .building import attempt, check_parameters, complete
 from .documents import Document, Problem, dotted
@@ -48,7 +51,9 @@ def check(document: Document) -> tuple[Scenario | None, list[Problem]]:
     if not isinstance(document.data, dict):
         keys = ", ".join(name for name, item in Scenario.model_fields.items() if item.is_required())
         return None, [Problem((), f"this holds no scenario; it needs at least the keys {keys}")]
-    scenario, problems = validate(Scenario, document.data)
+    data, unknown = _with_preset(document.data)
+    scenario, problems = validate(Scenario, data)
+    problems += unknown
     known = {problem.path for problem in problems}
     parts = (*_components(document.data, scenario), *_formulas(document.data, scenario))
     problems += [problem for problem in parts if problem.path not in known]
@@ -58,7 +63,26 @@ def check(document: Document) -> tuple[Scenario | None, list[Problem]]:
             scenario.automation.negotiation.steps(scenario.rates.period)
         except InputError as error:
             problems.append(Problem(("automation", "negotiation", "period"), str(error)))
+        try:
+            ForceSensor(scenario.sensor, scenario.rates.sensor)
+        except InputError as error:
+            problems.append(Problem(("sensor",), str(error)))
     return scenario, problems
+
+
+def _with_preset(data: dict[str, Any]) -> tuple[dict[str, Any], list[Problem]]:
+    """Return the data with the sensor's preset written out beneath what is given beside it."""
+    section = data.get("sensor")
+    if not isinstance(section, dict) or "preset" not in section:
+        return data, []
+    given = {key: value for key, value in section.items() if key != "preset"}
+    try:
+        preset = asdict(sensor_preset(str(section["preset"])))
+    except InputError as error:
+        return {**data, "sensor": given}, [Problem(("sensor", "preset"), f"sensor.preset: {error}")]
+    off = asdict(SensorParameters())
+    changed = {key: value for key, value in preset.items() if value != off[key]}
+    return {**data, "sensor": changed | given}, []
 
 
 def resolve(scenario: Scenario) -> Scenario:

@@ -50,6 +50,7 @@ class Kind(StrEnum):
     AUTOMATIONS = "automations"
     SMOOTHERS = "smoothers"
     PLANTS = "plants"
+    SENSORS = "sensors"
 
 
 @app.command(
@@ -173,10 +174,11 @@ def list_parts(
     kind: Annotated[Kind | None, typer.Argument(help="One kind alone.")] = None,
     as_json: Json = False,
 ) -> int:
-    """List scenarios, humans, imperfections, populations, automations, smoothers, plants."""
+    """List scenarios, humans, automations, sensors and everything else that has a name."""
     from cowalk.agents.registry import AUTOMATIONS, HUMANS, IMPERFECTIONS
     from cowalk.estimation.smoothing import SMOOTHERS
     from cowalk.sim.plants import PLANTS
+    from cowalk.sim.sensor_parameters import PRESETS
 
     registries: dict[Kind, Registry[Any]] = {
         Kind.HUMANS: HUMANS,
@@ -187,7 +189,12 @@ def list_parts(
     }
     found: dict[str, list[dict[str, str]]] = {}
     for each in [kind] if kind else Kind:
-        described = _parts(registries[each]) if each in registries else _files(each)
+        if each in registries:
+            described = _parts(registries[each])
+        elif each is Kind.SENSORS:
+            described = {name: text for name, (text, _) in PRESETS.items()}
+        else:
+            described = _files(each)
         found[each.value] = [{"name": n, "description": d} for n, d in described.items()]
     if as_json:
         emit_json(found)

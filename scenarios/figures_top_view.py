@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PatchCollection
-from matplotlib.patches import Circle
+from matplotlib.patches import Circle, Polygon, Rectangle
 from numpy.typing import NDArray
 
+from cowalk.sim.footprint import corners, furniture, walls
 from cowalk.sim.motion import Array, arc_displacement, compose
 from cowalk.sim.plant import BASE_RADIUS, HUMAN_RADIUS
 
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 
 Rows = NDArray[np.intp]
 """Row numbers of a trace."""
+PASSER = "#4F8A5B"
 MARGIN = 0.2
 """Ground shown beyond walls, obstacles and bodies, m."""
 FOOTPRINTS = 12
@@ -53,6 +55,12 @@ def window_of(world: World, data: dict[str, Array]) -> Window:
     """Return the ground that holds the walls, every obstacle, and the bodies all the way."""
     discs = [(o.x, o.y, o.radius) for o in world.obstacles]
     discs.append((*world.start[:2], BASE_RADIUS))
+    for item in world.furniture:
+        discs += [(x, y, 0.0) for x, y in corners(furniture(item))]
+    for walker in world.pedestrians:
+        discs += [(x, y, walker.radius) for x, y in walker.waypoints]
+    for wall in world.walls:
+        discs += [(*end, wall.thickness) for end in (wall.start, wall.end)]
     rows = np.array(discs)
     for x, y, radius in (("x", "y", BASE_RADIUS), ("human_x", "human_y", HUMAN_RADIUS)):
         known = np.isfinite(data[x]) & np.isfinite(data[y])
@@ -107,7 +115,20 @@ def _draw_world(axis: Axes, world: World, window: Window) -> None:
         # Far beyond the window, which may grow to fill its box.
         for wall, beyond in ((-half, -1000.0), (half, 1000.0)):
             axis.axhspan(wall, beyond, color="#D9D9D9", lw=0.0, zorder=0)
-            axis.axhline(wall, color=AGREED, lw=1.2, zorder=1)
+        for branch in world.corridor.side_corridors:
+            low = half if branch.side == "left" else -half - branch.length
+            place = (branch.x - branch.width / 2.0, low)
+            axis.add_patch(Rectangle(place, branch.width, branch.length, color="white", zorder=0))
+    for box in walls(world, 1000.0):
+        axis.add_patch(Polygon(corners(box), color=AGREED, lw=0.0, zorder=1))
+    for item in world.furniture:
+        axis.add_patch(Polygon(corners(furniture(item)), fc="#6B6B6B", ec=AGREED, lw=0.8, zorder=1))
+        _write(axis, item.kind + _unseen(item.seen_by), (item.x, item.y), above=False)
+    for walker in world.pedestrians:
+        axis.plot(*zip(*walker.waypoints, strict=True), color=PASSER, lw=1.0, ls=":", zorder=2)
+        axis.add_patch(Circle(walker.waypoints[0], walker.radius, fc=PASSER, lw=0.0, zorder=2))
+        place = (walker.waypoints[0][0], walker.waypoints[0][1] - walker.radius)
+        _write(axis, "pedestrian" + _unseen(walker.seen_by), place, above=False)
     reach = 10.0 * (window.right - window.left + window.top - window.bottom)
     path = world.path
     knots = path.point_at(np.array([-reach, path.length + reach]))
@@ -121,12 +142,13 @@ def _draw_world(axis: Axes, world: World, window: Window) -> None:
         )
         centre = (obstacle.x, obstacle.y)
         axis.add_patch(Circle(centre, obstacle.radius, lw=0.8, zorder=1, **look))
-        seen = (
-            ""
-            if len(obstacle.seen_by) > 1
-            else f" (seen by {' '.join(obstacle.seen_by) or 'no one'})"
-        )
-        _write(axis, obstacle.kind + seen, (centre[0], centre[1] - obstacle.radius), above=False)
+        place = (centre[0], centre[1] - obstacle.radius)
+        _write(axis, obstacle.kind + _unseen(obstacle.seen_by), place, above=False)
+
+
+def _unseen(seen_by: tuple[str, ...]) -> str:
+    """Return whom a thing is seen by alone, or nothing."""
+    return "" if len(seen_by) > 1 else f" (seen by {' '.join(seen_by) or 'no one'})"
 
 
 def _footprints(t: Array, horizon: float) -> tuple[Array, Rows, int]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from cowalk.agents.interfaces import Human, Situation
 from cowalk.sim.motion import Array, Path, TwistBounds, arc_displacement, compose
-from cowalk.sim.observation import OBSTACLE_ROWS, Observation
+from cowalk.sim.observation import OBSTACLE_COLUMNS, OBSTACLE_ROWS, Observation
 
 SITUATION = Situation(
     Path(((0.0, 0.0), (60.0, 0.0))), 0.8, TwistBounds((0.0, -0.5), (1.2, 0.5)), 0.05
@@ -75,9 +75,10 @@ def answer(
             Observation(
                 twist=twist.copy(),
                 force=np.tile(felt, (SAMPLES, 1)),
+                force_valid=np.ones(SAMPLES),
                 pose=pose.copy(),
                 pose_world=pose.copy(),  # the path is the world's x axis
-                obstacles=np.zeros((OBSTACLE_ROWS, 4)),
+                obstacles=np.zeros((OBSTACLE_ROWS, OBSTACLE_COLUMNS)),
                 time=time[step : step + 1].copy(),
             )
         )

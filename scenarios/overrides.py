@@ -39,7 +39,12 @@ def component_sections(data: Any) -> Iterator[tuple[Any, KeyPath, Any]]:
 
 
 def expand_names(data: Any) -> None:
-    """Turn every component given by its name alone into a section with a name, in place."""
+    """Turn every component given by its name alone into a section with a name, in place.
+
+    A sensor given by its name alone becomes a section with a ``preset``.
+    """
+    if isinstance(data, dict) and isinstance(data.get("sensor"), str):
+        data["sensor"] = {"preset": data["sensor"]}
     for parent, path, value in component_sections(data):
         if isinstance(value, str):
             parent[path[-1]] = {"name": value}
@@ -103,5 +108,7 @@ def _assign(place: Any, inside: Any, value: Any, steps: tuple[str, ...]) -> None
     if steps in COMPONENTS and isinstance(value, str) and isinstance(old, dict):
         kept = {key: item for key, item in old.items() if key != "parameters"}
         place[inside] = kept | {"name": value}
+    elif steps == ("sensor",) and isinstance(value, str):
+        place[inside] = {"preset": value}
     else:
         place[inside] = value

@@ -10,7 +10,7 @@ from cowalk.agents.automations.settings import NegotiationSettings
 from cowalk.agents.humans.intention import IntentionSettings
 from cowalk.sim.motion import TwistBounds
 from cowalk.sim.plant import Rates
-from cowalk.sim.sensor import SensorParameters
+from cowalk.sim.sensor_parameters import SensorParameters
 from cowalk.sim.world import World
 
 SUFFIX = ".scenario.yaml"
@@ -52,7 +52,7 @@ class Scenario(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9 ._-]*$")]
+    name: Annotated[str, Field(pattern=r"^[^./][^/]*$")]
     description: str = ""
     seed: Annotated[int, Field(ge=0)] = 0
     duration: Annotated[float, Field(gt=0.0, allow_inf_nan=False)] = 30.0

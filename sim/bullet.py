@@ -14,13 +14,14 @@ from .bullet_coupling import CouplingParameters
 from .bullet_engine import engine
 from .bullet_pair import Pair, PairParameters
 from .bullet_view import Viewer
+from .bullet_world import EngineClearance
 from .drive import DriveParameters
 from .errors import SimulationError
 from .gait import Gait, GaitParameters
 from .grip import GripParameters
 from .motion import Array
 from .parameters import parameters
-from .plant import PlantState, Rates
+from .plant import BASE_RADIUS, HUMAN_RADIUS, PlantState, Rates
 from .robot import RobotParameters
 from .walker import Walker, WalkerParameters
 from .world import World
@@ -40,7 +41,7 @@ class BulletPlant:
 
     The human's trunk, and with the drive "slip" the base too, stand on planar joints (x, y,
     yaw). Parameters may be given as their dataclass or as a mapping of its fields.
-    Walls and obstacles are not in this world: `cowalk.sim.world.Clearance` judges collisions.
+    Walls and obstacles are not in this world: `cowalk.sim.bullet_world` judges collisions.
 
     Parameters
     ----------
@@ -101,10 +102,13 @@ class BulletPlant:
         self._gui = gui
         self._viewer: Viewer | None = None
         self._world: World | None = None
+        self._distances: EngineClearance | None = None
+        self._steps = 0
 
     def reset(self, world: World, rng: np.random.Generator) -> PlantState:
         """See `Plant.reset`."""
         self._world = world
+        self._steps = 0
         x, y, yaw = world.start
         cos, sin = math.cos(yaw), math.sin(yaw)
 
@@ -126,11 +130,11 @@ class BulletPlant:
 
     def save(self) -> Any:
         """See `Plant.save`."""
-        return self._pair.save(), self._walker.save(), self._stopped, self._world
+        return self._pair.save(), self._walker.save(), self._stopped, self._world, self._steps
 
     def restore(self, saved: Any) -> PlantState:
         """See `Plant.restore`: into this plant, or with the drive "slip" into one built alike."""
-        pair, walker, self._stopped, self._world = saved
+        pair, walker, self._stopped, self._world, self._steps = saved
         self._pair.restore(pair)
         self._walker.restore(walker)
         return self._state(np.zeros((self._rates.samples, 6)))
@@ -144,6 +148,7 @@ class BulletPlant:
         for name, given in (("twist_command", (speed, rate)), ("hand_force", push)):
             if not (math.isfinite(given[0]) and math.isfinite(given[1])):
                 raise SimulationError(f"{name} = {given} is not finite")
+        self._steps += 1
         if self._stopped:
             speed = rate = 0.0
         pair = self._pair
@@ -215,7 +220,15 @@ class BulletPlant:
             mount=self._mount,
             grip_held=not lost,
             over=lost and self._grip.on_loss == "end",
+            time=self._steps * self._rates.period,
         )
+
+    def distances(self, world: World) -> EngineClearance:
+        """See `Plant.distances`: by the engine, from the shapes of base and body."""
+        if self._distances is not None:
+            self._distances.close()
+        self._distances = EngineClearance(world, (BASE_RADIUS, HUMAN_RADIUS))
+        return self._distances
 
     def bare_step(self) -> None:
         """Step the engine alone, nothing driven or read: what a benchmark compares with."""
@@ -241,7 +254,8 @@ class BulletPlant:
         joints = pair.human_state[: len(pair.human_state) // 2]
         speed = math.cos(yaw) * vx + math.sin(yaw) * vy
         phase = self._gait.phase if self._gait.enabled else None
-        self._viewer.show((x, y, yaw), joints, pair.load_state[:3], phase, speed)
+        now = self._steps * self._rates.period
+        self._viewer.show((x, y, yaw), joints, pair.load_state[:3], phase, speed, now)
         return self._viewer
 
     def _watch(self) -> None:
@@ -256,4 +270,6 @@ class BulletPlant:
         """See `Plant.close`."""
         if self._viewer is not None:
             self._viewer.close()
+        if self._distances is not None:
+            self._distances.close()
         self._pair.close()

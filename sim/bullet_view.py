@@ -6,7 +6,6 @@ watched; a run is the same whether or not anybody looks.
 
 from __future__ import annotations
 
-import itertools
 import math
 import time
 from dataclasses import dataclass
@@ -16,8 +15,8 @@ from numpy.typing import NDArray
 
 from .bullet_coupling import CouplingParameters
 from .bullet_engine import connect, disconnect, engine, load
-from .bullet_floor import lay_floor
 from .bullet_scene import look_at, photograph
+from .bullet_scenery import Scenery
 from .camera import Camera
 from .gait import step_frequency
 from .human_body import HumanBody
@@ -26,12 +25,7 @@ from .urdf import Vector
 from .urdf_colours import one_colour_a_link
 from .world import World
 
-WALL_HEIGHT, WALL_THICKNESS, WALL_PIECE = 0.25, 0.10, 2.0
-SOLID_HEIGHT = 0.8
-MARGIN = 6.0
-"""How far floor and walls reach beyond path and start, m."""
 CLOTH = (0.85, 0.80, 0.62, 1.0)
-WALL, PUDDLE, SOLID = (0.55, 0.57, 0.60, 1.0), (0.20, 0.50, 0.90, 1.0), (0.55, 0.42, 0.28, 1.0)
 CAMERA_DISTANCE, CAMERA_PITCH, CAMERA_SIDE, CAMERA_FIELD = 3.3, -24.0, 32.0, 50.0
 """Chase camera: m, degrees, degrees to the left of straight behind the base, degrees."""
 TOP_DISTANCE, TOP_FIELD, TOP_AHEAD = 24.0, 10.0, 0.8
@@ -97,7 +91,7 @@ class Viewer:
         self._carried = self._stretcher(look) if look.load else None
         self._walked: tuple[float, float] | None = None
         self._phase = 0.0
-        self._build(world)
+        self._scenery = Scenery(self._client, world)
         if gui:
             engine.configureDebugVisualizer(
                 engine.COV_ENABLE_RENDERING, 1, physicsClientId=self._client
@@ -119,59 +113,6 @@ class Viewer:
         )
         return body
 
-    def _build(self, world: World) -> None:
-        points = np.array([*world.path.points, world.start[:2]])
-        left, bottom = points.min(axis=0) - MARGIN
-        right, top = points.max(axis=0) + MARGIN
-        if world.corridor:
-            half = world.corridor.width / 2.0
-            bottom, top = -half, half
-            # In pieces: what a triangle costs to render is the rectangle around it.
-            pieces = math.ceil((right - left) / WALL_PIECE)
-            length = (right - left) / pieces
-            for piece, side in itertools.product(range(pieces), (-1.0, 1.0)):
-                y = side * (half + WALL_THICKNESS / 2.0)
-                self._box(
-                    (left + (piece + 0.5) * length, y, WALL_HEIGHT / 2.0),
-                    (length, WALL_THICKNESS, WALL_HEIGHT),
-                    WALL,
-                )
-        lay_floor(self._client, (left, right), (bottom, top))
-        for thing in world.obstacles:
-            height = SOLID_HEIGHT if thing.solid else 0.004
-            self._show(
-                engine.createVisualShape(
-                    engine.GEOM_CYLINDER,
-                    radius=thing.radius,
-                    length=height,
-                    rgbaColor=SOLID if thing.solid else PUDDLE,
-                    physicsClientId=self._client,
-                ),
-                (thing.x, thing.y, height / 2.0),
-            )
-
-    def _box(
-        self,
-        centre: tuple[float, float, float],
-        size: tuple[float, float, float],
-        colour: tuple[float, float, float, float],
-    ) -> None:
-        shape = engine.createVisualShape(
-            engine.GEOM_BOX,
-            halfExtents=[side / 2.0 for side in size],
-            rgbaColor=colour,
-            physicsClientId=self._client,
-        )
-        self._show(shape, centre)
-
-    def _show(self, shape: int, centre: tuple[float, float, float]) -> None:
-        engine.createMultiBody(
-            baseMass=0.0,
-            baseVisualShapeIndex=shape,
-            basePosition=centre,
-            physicsClientId=self._client,
-        )
-
     def show(
         self,
         base: tuple[float, ...],
@@ -179,6 +120,7 @@ class Viewer:
         carried: tuple[float, ...],
         phase: float | None,
         speed: float,
+        now: float,
     ) -> None:
         """Pose the bodies and let the camera follow.
 
@@ -194,7 +136,10 @@ class Viewer:
             Of the stride, rad; None takes it from the distance walked since the last look.
         speed : float
             Of the walk, m/s.
+        now : float
+            Since reset, s.
         """
+        self._scenery.show(now)
         self._put(self._robot, base)
         self._put(self._human, human)
         if self._carried is not None:

@@ -11,19 +11,22 @@ from gymnasium.spaces import Box, Dict
 from pettingzoo import ParallelEnv
 
 from .errors import InputError, SimulationError
+from .eyes import Eyes
 from .motion import Array, Path, TwistBounds
-from .observation import OBSTACLE_ROWS, Eyes, Observation
-from .plant import BASE_RADIUS, HUMAN_RADIUS, Plant, PlantState, Rates
+from .observation import OBSTACLE_COLUMNS, OBSTACLE_ROWS, Observation
+from .plant import BASE_RADIUS, Plant, PlantState, Rates
 from .plants import PLANTS
 from .reward import Reward
-from .sensor import ForceSensor, SensorParameters
-from .world import SEATS, Clearance, Corridor, World
+from .seats import SEATS
+from .sensor import ForceSensor, Reading
+from .sensor_parameters import SensorParameters
+from .world import Corridor, World
 
 STRAIGHT_CORRIDOR = World(path=Path(((0.0, 0.0), (20.0, 0.0))), corridor=Corridor(width=3.0))
 """The world of `parallel_env` without arguments: nothing in it, nothing to negotiate."""
 
 _ENDS = ("goal", "collision", "grip_lost")
-_SAVED = ("agents", "_step_count", "_sensor", "_generator", "_state", "_measured", "_info")
+_SAVED = ("agents", "_step_count", "_sensor", "_generator", "_state", "_reading", "_info")
 """What of an environment changes within an episode, beside its plant."""
 
 
@@ -37,8 +40,9 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
     The human's action is the intended hand force on the base ``[fx, fy]``, base axes, N; the
     automation's is the twist to execute ``[v, omega]``, m/s and rad/s. Actions beyond the
     action space are clipped to it. Both seats perceive the same dict of named boxes: ``twist``
-    (2,), ``force`` (samples, 2), ``pose`` (3,) relative to the path, ``pose_world`` (3,),
-    ``obstacles`` (8, 4) and ``time`` (1,), as `cowalk.sim.observation.Observation` explains.
+    (2,), ``force`` (samples, 2), ``force_valid`` (samples,), ``pose`` (3,) relative to the path,
+    ``pose_world`` (3,), ``obstacles`` (8, 6) and ``time`` (1,), as
+    `cowalk.sim.observation.Observation` explains.
     Spaces do not depend on who sits in the seats.
 
     Rewards are those of `cowalk.sim.reward.Reward`. An episode terminates when the base
@@ -115,9 +119,10 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
             {
                 "twist": _box(2),
                 "force": _box(rates.samples, 2),
+                "force_valid": _box(rates.samples),
                 "pose": _box(3),
                 "pose_world": _box(3),
-                "obstacles": _box(OBSTACLE_ROWS, 4),
+                "obstacles": _box(OBSTACLE_ROWS, OBSTACLE_COLUMNS),
                 "time": _box(1),
             }
         )
@@ -126,10 +131,11 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
             seat: tuple(zip(box.low.tolist(), box.high.tolist(), strict=True))
             for seat, box in self.action_spaces.items()
         }
-        self._clearance = Clearance(world, (BASE_RADIUS, HUMAN_RADIUS))
+        self._distances = self._plant.distances(world)
         self._reward = Reward(pace, rates.period)
-        self._eyes = {seat: Eyes(world, seat) for seat in SEATS}
-        self._sensor = ForceSensor(sensor, np.random.default_rng())
+        self._eyes = {seat: Eyes(world, seat, BASE_RADIUS) for seat in SEATS}
+        self._sensor = ForceSensor(sensor, rates.sensor)
+        self._felt = np.ones(rates.samples)
         self._generator = np.random.default_rng()
         self._step_count = 0
         self.applied = (0.0, 0.0), (0.0, 0.0)
@@ -172,8 +178,9 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self._step_count = 0
         self._sensor.reset(sensor_rng)
         self._state = self._plant.reset(self.world, plant_rng)
-        self._measured = self._sensor.measure(self._state.force_on_base)
-        clearance, _ = self._clearance(self._state.pose, self._state.human_pose)
+        self._reading = self._sensor.measure(self._state.force_on_base)
+        state = self._state
+        clearance, _ = self._distances(self._time, state.pose, state.human_pose)
         self._info = {"clearance": clearance} | dict.fromkeys(_ENDS, False)
         return self._observations(), {seat: dict(self._info) for seat in SEATS}
 
@@ -205,11 +212,10 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self.applied = force, twist
         state = self._state = self._plant.step(twist, force)
         self._step_count += 1
-        self._measured = self._sensor.measure(state.force_on_base)
-        clearance, solid_clearance = self._clearance(state.pose, state.human_pose)
+        self._reading = self._sensor.measure(state.force_on_base)
+        clearance, collision = self._distances(self._time, state.pose, state.human_pose)
         observations = self._observations()
         goal = self._relative[0] >= self.world.path.length
-        collision = solid_clearance < 0.0
         ends = zip(_ENDS, (goal, collision, not state.grip_held), strict=True)
         self._info = {"clearance": clearance} | dict(ends)
         rewards = self._reward(state, self._relative, clearance, collision, goal)
@@ -243,7 +249,12 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
     @property
     def measured_force(self) -> Array:
         """What the sensor read in the last control step, N, base axes, shape (samples, 2)."""
-        return self._measured
+        return self._reading.force
+
+    @property
+    def sensor_reading(self) -> Reading:
+        """The same with its flags: samples lost on the way, samples at the end of the range."""
+        return self._reading
 
     def render(self) -> np.ndarray | None:
         """Return a picture, uint8, shape (480, 640, 3), or show it in mode ``"human"``."""
@@ -258,6 +269,11 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
     def close(self) -> None:
         """Free the plant. May be called twice."""
         self._plant.close()
+
+    @property
+    def _time(self) -> float:
+        """Since reset, s."""
+        return self._step_count / self.rates.control
 
     def _bounded(self, seat: str, action: Array) -> tuple[float, float]:
         if len(action) != 2:
@@ -278,15 +294,17 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
     def _observations(self) -> dict[str, Observation]:
         state = self._state
         self._relative = self.world.path.relative(*state.pose)
-        twist, time = np.array(state.twist), np.array([self._step_count / self.rates.control])
-        force = {"human": state.force_on_base, "automation": self._measured}
+        twist, time = np.array(state.twist), np.array([self._time])
+        force = {"human": state.force_on_base, "automation": self._reading.force}
+        valid = {"human": self._felt, "automation": self._reading.valid}
         return {
             seat: Observation(
                 twist=twist.copy(),
                 force=force[seat].copy(),
+                force_valid=valid[seat].astype(float),
                 pose=np.array(self._relative),
                 pose_world=np.array(state.pose),
-                obstacles=self._eyes[seat].look(state.pose),
+                obstacles=self._eyes[seat].look(state.pose, state.human_pose, self._time),
                 time=time.copy(),
             )
             for seat in SEATS

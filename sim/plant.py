@@ -11,6 +11,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from .clearance import Distances
 from .errors import InputError
 from .motion import Array
 from .world import World
@@ -95,6 +96,8 @@ class PlantState:
         Whether human and base still hold on to each other.
     over : bool
         Whether the plant asks for the end of the episode, having lost its grip.
+    time : float
+        Since reset, s.
     """
 
     pose: tuple[float, float, float]
@@ -105,6 +108,7 @@ class PlantState:
     mount: SensorMount = AT_HANDLE
     grip_held: bool = True
     over: bool = False
+    time: float = 0.0
 
     @property
     def wrench_on_sensor(self) -> Array:
@@ -148,6 +152,10 @@ class Plant(Protocol):
 
     def restore(self, saved: Any) -> PlantState:
         """Go on from what `save` gave, bit for bit; the state's force samples are void."""
+        ...
+
+    def distances(self, world: World) -> Distances:
+        """Return what measures how far base and human are from everything in a world."""
         ...
 
     def render(self, width: int, height: int) -> np.ndarray:

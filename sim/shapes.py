@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from .footprint import furniture, walls
 from .plant import BASE_RADIUS, HUMAN_RADIUS, PlantState
 from .world import World
 
@@ -76,12 +77,13 @@ def plain_figures(world: World) -> list[Shape]:
             )
         ),
     ]
-    if world.corridor:
-        ends = [point[0] for point in world.path.points]
-        low, high = min(ends) - BEYOND, max(ends) + BEYOND
-        for side in (-1.0, 1.0):
-            middle = ((low + high) / 2.0, side * (world.corridor.width / 2.0 + 0.05), 0.125)
-            shapes.append(upright("scenery/walls", "box", middle, (high - low, 0.1, 0.25), WALL))
+    stands = [("walls", box, 0.25, WALL) for box in walls(world, BEYOND)]
+    stands += [("furniture", furniture(item), item.height, SOLID) for item in world.furniture]
+    for name, box, height, colour in stands:
+        turn = (0.0, 0.0, math.sin(box.yaw / 2.0), math.cos(box.yaw / 2.0))
+        sides = (2.0 * box.half_length, 2.0 * box.half_width, height)
+        place = ((box.x, box.y, height / 2.0), turn)
+        shapes.append(Shape(f"scenery/{name}", "box", sides, place, colour))
     for thing in world.obstacles:
         height, colour = (0.8, SOLID) if thing.solid else (0.004, PUDDLE)
         middle = (thing.x, thing.y, height / 2.0)

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Ellipse, FancyArrow, Polygon, Rectangle
 from numpy.typing import NDArray
 
+from .footprint import corners, furniture, walls
 from .plant import BASE_RADIUS, HUMAN_RADIUS, PlantState
 from .world import World
 
@@ -21,7 +22,7 @@ METRES_PER_NEWTON = 0.1
 
 FLOOR, WALL, PATH = "#f2f0ec", "#5c5f66", "#8c8f96"
 BASE, HEADING, HUMAN, HEAD, FORCE = "#0d7390", "#ffffff", "#b8383a", "#3f2a1c", "#e8890c"
-PUDDLE, SOLID = "#4c9be8", "#7a6a58"
+PUDDLE, SOLID, PASSER = "#4c9be8", "#7a6a58", "#4f8a5b"
 
 
 def window(
@@ -67,6 +68,8 @@ def draw(
     axes.spines[:].set_visible(False)
 
     _ground(axes, world)
+    for walker in world.pedestrians:
+        _person(axes, *walker.state(state.time), walker.radius)
     _human(axes, state.human_pose)
     axes.add_patch(Circle((x, y), BASE_RADIUS, facecolor=BASE, edgecolor="white", zorder=4))
     nose = np.array([[0.24, 0.0], [0.06, 0.13], [0.06, -0.13]])
@@ -103,6 +106,16 @@ def _ground(axes: Axes, world: World) -> None:
             axes.add_patch(
                 Rectangle((left, edge), right - left, end - edge, facecolor=WALL, zorder=2)
             )
+        for branch in world.corridor.side_corridors:
+            low = half if branch.side == "left" else -half - branch.length
+            place = (branch.x - branch.width / 2.0, low)
+            axes.add_patch(
+                Rectangle(place, branch.width, branch.length, facecolor=FLOOR, zorder=2.1)
+            )
+    for box in walls(world):
+        axes.add_patch(Polygon(corners(box), facecolor=WALL, zorder=2.2))
+    for item in world.furniture:
+        axes.add_patch(Polygon(corners(furniture(item)), facecolor=SOLID, zorder=3))
     stations = np.linspace(left - right, world.path.length + right - left, 400)
     axes.plot(*world.path.point_at(stations).T, "--", color=PATH, linewidth=1.5, zorder=1)
     for thing in world.obstacles:
@@ -115,6 +128,13 @@ def _ground(axes: Axes, world: World) -> None:
                 zorder=3 if thing.solid else 1.5,
             )
         )
+
+
+def _person(axes: Axes, x: float, y: float, vx: float, vy: float, radius: float) -> None:
+    axes.add_patch(Circle((x, y), radius, facecolor=PASSER, edgecolor="white", zorder=4))
+    axes.add_patch(Circle((x, y), radius * 0.45, facecolor=HEAD, zorder=5))
+    if vx or vy:
+        axes.add_patch(FancyArrow(x, y, vx, vy, width=0.03, facecolor=PASSER, lw=0, zorder=3.9))
 
 
 def _human(axes: Axes, pose: tuple[float, float, float]) -> None:

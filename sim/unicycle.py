@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from .clearance import Clearance
 from .errors import SimulationError
-from .plant import HUMAN_PLACE, PlantState, Rates
+from .plant import BASE_RADIUS, HUMAN_PLACE, HUMAN_RADIUS, PlantState, Rates
 from .world import World
 
 
@@ -30,11 +31,13 @@ class UnicyclePlant:
         self._twist = (0.0, 0.0)
         self._hand_force = (0.0, 0.0)
         self._world: World | None = None
+        self._steps = 0
 
     def reset(self, world: World, rng: np.random.Generator) -> PlantState:
         """See `Plant.reset`."""
         self._world = world
         self._pose = world.start
+        self._steps = 0
         self._twist = self._hand_force = (0.0, 0.0)
         return self._state()
 
@@ -52,6 +55,7 @@ class UnicyclePlant:
             theta + 2.0 * half,
         )
         self._twist = (v, omega)
+        self._steps += 1
         self._hand_force = hand_force
         if not math.isfinite(sum(self._pose)):
             raise SimulationError(f"the base's pose is {self._pose}: not finite")
@@ -59,11 +63,11 @@ class UnicyclePlant:
 
     def save(self) -> Any:
         """See `Plant.save`."""
-        return self._pose, self._twist, self._hand_force, self._world
+        return self._pose, self._twist, self._hand_force, self._world, self._steps
 
     def restore(self, saved: Any) -> PlantState:
         """See `Plant.restore`."""
-        self._pose, self._twist, self._hand_force, self._world = saved
+        self._pose, self._twist, self._hand_force, self._world, self._steps = saved
         return self._state()
 
     def _state(self) -> PlantState:
@@ -81,7 +85,12 @@ class UnicyclePlant:
                 theta + place_theta,
             ),
             force_on_base=force,
+            time=self._steps * self._period,
         )
+
+    def distances(self, world: World) -> Clearance:
+        """See `Plant.distances`: in closed form."""
+        return Clearance(world, (BASE_RADIUS, HUMAN_RADIUS))
 
     def render(self, width: int, height: int) -> np.ndarray:
         """See `Plant.render`: a drawing from above."""

@@ -8,7 +8,7 @@ from copy import deepcopy
 import numpy as np
 
 from cowalk.agents.interfaces import Belief, Observation, Situation
-from cowalk.estimation.intent import human_wish, wish_change
+from cowalk.estimation.intent import human_wish, mean_force, wish_change
 from cowalk.estimation.smoothing import MovingAverage, Smoother
 from cowalk.estimation.stubbornness import interaction_value, stubbornness, stubbornness_norm
 from cowalk.sim.motion import Array
@@ -72,7 +72,7 @@ class NegotiatingAutomation(ABC):
 
     def _negotiate(self, observation: Observation) -> Array:
         twist = observation["twist"]
-        force = observation["force"].mean(axis=-2)
+        force = mean_force(observation["force"], observation.get("force_valid"))
         pose = observation["pose_world"]
         if self._count == 0:
             self._wish_before = twist

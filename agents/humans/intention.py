@@ -261,11 +261,11 @@ class Intention:
 def _rows(m: Elementwise, obstacles: Array) -> list[Value]:
     """Return the rows of the obstacles' observation that are in use, 4 values each."""
     if m is FLOATS:
-        return [row for row in obstacles.tolist() if row[0]]
+        return [row[:4] for row in obstacles.tolist() if row[0]]
     rows = []
     for i in range(obstacles.shape[-2]):
         if not obstacles[..., i, 0].any():
             break  # rows in use come first
         # One copy of the row: its values lie far apart in a batch.
-        rows.append(m.parts(obstacles[..., i, :].copy()))
+        rows.append(m.parts(obstacles[..., i, :4].copy()))
     return rows

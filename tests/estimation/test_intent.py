@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cowalk.estimation.intent import human_wish, wish_change
+from cowalk.estimation.intent import human_wish, mean_force, wish_change
 
 UPPER = np.array([1.2, 0.26])
 
@@ -32,3 +32,13 @@ def test_the_wish_stays_within_the_bounds_and_broadcasts():
     twists = np.array([[0.8, 0.2], [0.8, -0.2], [0.1, 0.0]])
     wishes = human_wish(twists, change(-10.0, 7.5), [0.0, -0.26], UPPER)
     np.testing.assert_allclose(wishes, [[0.2, 0.26], [0.2, -0.07], [0.0, 0.13]])
+
+
+def test_lost_samples_are_left_out_of_the_mean():
+    force = np.array([[1.0, 2.0], [3.0, 4.0], [100.0, 100.0]])
+    np.testing.assert_array_equal(mean_force(force), force.mean(axis=0))
+    np.testing.assert_allclose(mean_force(force, np.array([1.0, 1.0, 0.0])), [2.0, 3.0])
+    np.testing.assert_allclose(mean_force(force, np.zeros(3)), force.mean(axis=0))
+    lanes = np.stack((force, 2.0 * force))
+    valid = np.array([[1.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
+    np.testing.assert_allclose(mean_force(lanes, valid), [[2.0, 3.0], [200.0, 200.0]])

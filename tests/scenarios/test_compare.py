@@ -5,7 +5,7 @@ from cowalk.scenarios.compare import compare_smoothers
 from cowalk.scenarios.loading import load
 from cowalk.sim.errors import InputError
 
-QUICK = ("plant=unicycle", "duration=12", "sensor.noise=[0.4, 0.4]")
+QUICK = ("plant=unicycle", "duration=12", "sensor.noise_density=0.0365")
 
 
 def test_every_smoother_is_scored_the_papers_first():

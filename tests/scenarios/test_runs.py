@@ -67,7 +67,7 @@ def test_the_walked_path_clears_the_puddle(puddle):
 
 def test_the_force_is_the_constraints_and_not_the_intent(puddle):
     noise = 0.05 / np.sqrt(12)  # of the sensor, averaged over a control step
-    for trace in (puddle.trace, trace_of("puddle", "sensor.noise=[0.0, 0.0]")):
+    for trace in (puddle.trace, trace_of("puddle", "sensor.noise_density=0.0")):
         walking = trace["t"] > 3.0
         intent = trace["fy_intent"][walking]
         difference = trace["fy"][walking] - intent
@@ -117,7 +117,7 @@ def test_the_trace_holds_the_force_that_acted(tmp_path, monkeypatch):
 
 
 def test_the_seed_matters_and_the_noise_is_the_sensors():
-    quiet = [trace_of("puddle", f"seed={seed}", "sensor.noise=[0.0, 0.0]") for seed in (1, 2)]
+    quiet = [trace_of("puddle", f"seed={seed}", "sensor.noise_density=0.0") for seed in (1, 2)]
     assert quiet[0].values.tobytes() == quiet[1].values.tobytes()
     one, two = trace_of("puddle", "seed=1"), trace_of("puddle", "seed=2")
     same = trace_of("puddle", "seed=2")

@@ -13,7 +13,7 @@ from cowalk.sim.plants import PLANTS
 from cowalk.sim.sensor import SensorParameters
 from cowalk.sim.world import Corridor, Obstacle, World
 
-NOISY = SensorParameters(noise=(0.2, 0.2))
+NOISY = SensorParameters(noise_density=0.02, drop_rate=0.02, low_pass=60.0, latency=0.01)
 
 
 def episode(env, seed, steps=None):
@@ -77,6 +77,7 @@ def test_the_automation_reads_the_sensor_and_the_human_feels_the_force():
     env.reset(seed=0)
     observations, *_ = env.step({"human": np.array([1.0, 2.0]), "automation": np.zeros(2)})
     np.testing.assert_array_equal(observations["human"]["force"], [[1.0, 2.0]] * 12)
+    assert observations["human"]["force_valid"].all()
     assert observations["automation"]["force"].std(axis=0).min() > 0.05
 
 
@@ -173,12 +174,16 @@ def test_a_picture_is_drawn(plant):
 
 
 def test_human_rendering_opens_a_window_for_plants_without_a_viewer(monkeypatch):
-    matplotlib = pytest.importorskip("matplotlib")
-    matplotlib.use("Agg")
-    env = parallel_env(plant="unicycle", render_mode="human", duration=0.2)
-    walk(env, (0.8, 0.0))
+    import matplotlib as mpl
     from matplotlib import pyplot as plt
 
+    mpl.use("Agg")
+    env = parallel_env(plant="unicycle", render_mode="human", duration=0.2)
+    with pytest.raises(InputError, match="no window can be opened"):
+        walk(env, (0.8, 0.0))
+    # A screen is all that is missing here: drawing itself works without one.
+    monkeypatch.setattr(plt, "get_backend", lambda: "TkAgg")
+    walk(env, (0.8, 0.0))
     assert plt.fignum_exists("cowalk")
     plt.close("all")
 

@@ -14,6 +14,8 @@ from cowalk.sim.plant import Rates
 from cowalk.sim.plants import PLANTS
 from cowalk.sim.sensor import SensorParameters
 
+FAULTY = SensorParameters(noise_density=0.01, low_pass=60.0, latency=0.01, drop_rate=0.02)
+
 
 def go_on(env, steps):
     rows = []
@@ -33,7 +35,7 @@ def go_on(env, steps):
 
 @pytest.mark.parametrize("plant", PLANTS.names())
 def test_an_environment_goes_on_from_where_it_was_saved(plant):
-    env = parallel_env(plant=plant, sensor=SensorParameters(noise=(0.1, 0.1)), duration=4.0)
+    env = parallel_env(plant=plant, sensor=FAULTY, duration=4.0)
     env.reset(seed=5)
     go_on(env, 20)
     saved = env.save()

@@ -1,6 +1,7 @@
 """The drawing from above: things are where they are, in their colours."""
 
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,8 +9,8 @@ from matplotlib.colors import to_rgb
 
 from cowalk.sim.motion import Path
 from cowalk.sim.plant import PlantState
-from cowalk.sim.topview import BASE, FORCE, HUMAN, PUDDLE, SOLID, WALL, draw
-from cowalk.sim.world import Corridor, Obstacle, World
+from cowalk.sim.topview import BASE, FLOOR, FORCE, HUMAN, PASSER, PUDDLE, SOLID, WALL, draw
+from cowalk.sim.world import Corridor, Doorway, Furniture, Obstacle, Pedestrian, SideCorridor, World
 
 WORLD = World(
     Path(((0, 0), (10, 0))),
@@ -62,6 +63,33 @@ def test_arrow_points_where_the_base_is_pushed(force, theta, direction):
     assert offset @ direction > 10
     assert abs(offset @ direction[::-1]) < 5
     assert where(draw(WORLD, state(), 640, 480), FORCE)[1] == 0
+
+
+def test_doors_furniture_and_people_are_where_they_are():
+    world = World(
+        WORLD.path,
+        Corridor(3.0, (Doorway(3.0, 1.2, 0.4),), (SideCorridor(0.0, 1.0, "left", 2.0),)),
+        furniture=(Furniture(2.5, -1.2, 0.4, 0.2),),
+        pedestrians=(Pedestrian(((2.0, 1.0), (2.0, -1.0)), speed=1.0),),
+    )
+
+    def at(picture, x, y):
+        column, row = round((x - 1.0 + 2.4) * 640 / 6.0), round(240 - y * 640 / 6.0)
+        return picture[row, column] / 255.0
+
+    picture = draw(world, state(), 640, 480)
+    for place, colour in (
+        ((3.0, -0.5), WALL),
+        ((3.0, 0.4), FLOOR),
+        ((3.0, 1.2), WALL),
+        ((0.0, 1.7), FLOOR),
+        ((1.0, 1.7), WALL),
+        ((2.5, -1.2), SOLID),
+        ((2.15, 1.0), PASSER),
+    ):
+        assert at(picture, *place) == pytest.approx(to_rgb(colour), abs=0.02), place
+    later = draw(world, replace(state(), time=1.5), 640, 480)
+    assert at(later, 2.15, -0.5) == pytest.approx(to_rgb(PASSER), abs=0.02)
 
 
 def test_open_ground_and_no_global_state():

@@ -1,0 +1,170 @@
+"""What a force-torque sensor does wrong, and three sensors that one can buy."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from .errors import InputError
+from .registry import did_you_mean
+
+
+@dataclass(frozen=True)
+class SensorParameters:
+    """A sensor without faults unless told otherwise.
+
+    The force passes, in this order: cross-talk, zero offset (bias and drift) and noise, low-pass,
+    saturation, quantisation, the sensor's own conversions, tare, latency, lost samples. What is
+    given per channel is one number for all channels, or a list with one for each.
+
+    Parameters
+    ----------
+    rate : float
+        Conversions a second, Hz; between them the last one is read again. 0 converts at every
+        sample of `cowalk.sim.plant.Rates.sensor`, as does any rate above that.
+    latency : float
+        Delay from conversion to reading, s, rounded to whole samples.
+    bias : float or list
+        Constant zero offset, N.
+    drift : float or list
+        Slope of the zero offset, N/h.
+    noise_density : float or list
+        One-sided density of white noise ahead of the low-pass, N/sqrt(Hz).
+    low_pass : float
+        -3 dB frequency of a second-order Butterworth low-pass, Hz; 0 is none.
+    cross_talk : float or list of lists
+        Share of each other channel's force that a channel reads; or the matrix of shares, row by
+        row for the reading channels, its diagonal being errors of gain.
+    range : float
+        Largest reading either way, N, before the tare is taken off.
+    resolution : float
+        Step between readings, N; 0 is continuous.
+    drop_rate : float
+        Probability that a conversion is lost on its way; the last one is then read again, and
+        flagged.
+    tare : bool
+        Take off, at the start of an episode, what the unloaded sensor reads over 0.5 s.
+
+    Raises
+    ------
+    InputError
+        If a number is negative or not finite where that has no meaning.
+    """
+
+    rate: float = 0.0
+    latency: float = 0.0
+    bias: float | tuple[float, ...] = 0.0
+    drift: float | tuple[float, ...] = 0.0
+    noise_density: float | tuple[float, ...] = 0.0
+    low_pass: float = 0.0
+    cross_talk: float | tuple[tuple[float, ...], ...] = 0.0
+    range: float = math.inf
+    resolution: float = 0.0
+    drop_rate: float = 0.0
+    tare: bool = False
+
+    def __post_init__(self) -> None:
+        for name, unit in (
+            ("rate", "Hz"),
+            ("latency", "s"),
+            ("noise_density", "N/sqrt(Hz)"),
+            ("low_pass", "Hz"),
+            ("resolution", "N"),
+        ):
+            value = getattr(self, name)
+            if not (np.all(np.isfinite(value)) and np.min(value, initial=0.0) >= 0.0):
+                raise InputError(f"{name} = {value} {unit}: it must be finite and at least 0")
+        if not self.range > 0.0:
+            raise InputError(f"range = {self.range} N: it must be above 0")
+        if not 0.0 <= self.drop_rate < 1.0:
+            raise InputError(f"drop_rate = {self.drop_rate}: it must be at least 0 and below 1")
+        for name in ("bias", "drift", "noise_density"):
+            value = getattr(self, name)
+            if np.size(value) == 0 or not np.all(np.isfinite(value)):
+                raise InputError(f"{name} = {value}: give one number, or one a channel")
+
+
+PRESETS: dict[str, tuple[str, SensorParameters]] = {
+    "laboratory": (
+        "six-axis strain gauge transducer with its own electronics, as ATI's Axia80-M20",
+        SensorParameters(
+            # 44 mN over 100 Hz for 1000 N (x-tech.studio, "Understanding noise sources in 6-axis
+            # force-torque sensors"); half of it for half the range.
+            noise_density=0.0022,
+            # 500 N, and 1e6 counts per N (ATI 9610-05 Ethernet Axia, tables 4.8 and 8.3).
+            range=500.0,
+            resolution=1e-6,
+            rate=1000.0,  # typical; these convert at up to 8 kHz and are read at 1 kHz
+            low_pass=100.0,  # typical choice among the electronics' own filters
+            latency=0.001,  # typical: one period of the field bus
+            bias=2.0,  # typical, before the tare
+            drift=0.1,  # typical after warming up
+            cross_talk=0.01,  # typical
+            tare=True,
+        ),
+    ),
+    "industrial": (
+        "six-axis sensor of a collaborative robot's wrist, as Robotiq's FT 300-S",
+        SensorParameters(
+            # 100 messages a second, whole hundredths of a newton (Robotiq FT 300-S instruction
+            # manual, section 4.4.2 "Data stream").
+            rate=100.0,
+            resolution=0.01,
+            # 300 N with 0.1 N of noise (roboticscenter.ai, force/torque sensor selection guide),
+            # taken as its deviation behind a low-pass of 40 Hz, which is typical.
+            range=300.0,
+            noise_density=0.015,
+            low_pass=40.0,
+            latency=0.01,  # typical: one message
+            bias=5.0,  # typical, before the tare
+            drift=1.0,  # typical
+            cross_talk=0.02,  # typical: "good sensors" stay below 2 %
+            drop_rate=0.001,  # typical of a serial line
+            tare=True,
+        ),
+    ),
+    "low-cost": (
+        "bar load cells of 20 kg on HX711 converters",
+        SensorParameters(
+            # 80 conversions a second with 90 nV of noise (SparkFun, OpenScale hookup guide, after
+            # Avia's HX711 data sheet).
+            rate=80.0,
+            low_pass=20.0,  # typical: the chip averages over a few conversions
+            latency=0.0125,  # typical: one conversion
+            # 90 nV is 0.0007 N/sqrt(Hz) where 196 N give 5 mV; supply, wiring and cell raise it,
+            # typically by ten.
+            noise_density=0.007,
+            range=196.0,  # 20 kg
+            resolution=0.02,  # typical: 2 g
+            bias=10.0,  # zero balance of 5 % of the rated output (senstech.co.kr, terms)
+            drift=5.0,  # typical: creep, and a zero that follows the temperature
+            cross_talk=0.05,  # typical of single-axis cells bolted together
+            drop_rate=0.01,  # typical of a line driven by software
+            tare=True,
+        ),
+    ),
+}
+"""Description and parameters by name. What no source is named for is typical, not looked up."""
+
+
+def sensor_preset(name: str, **changes: Any) -> SensorParameters:
+    """Return the parameters of a preset, some of them changed.
+
+    Parameters
+    ----------
+    name : str
+        ``laboratory``, ``industrial`` or ``low-cost``.
+    **changes
+        See `SensorParameters`.
+
+    Raises
+    ------
+    InputError
+        If there is no such preset.
+    """
+    if name not in PRESETS:
+        raise InputError(f"unknown sensor preset {name!r}; {did_you_mean(name, list(PRESETS))}")
+    return replace(PRESETS[name][1], **changes)

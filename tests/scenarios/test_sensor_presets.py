@@ -1,0 +1,66 @@
+"""The sensor's section of a scenario: a preset by its name, and what is changed about it."""
+
+import pytest
+
+from cowalk.scenarios.loading import faults, load, to_yaml
+from cowalk.sim.errors import InputError
+from cowalk.sim.sensor_parameters import SensorParameters, sensor_preset
+
+
+@pytest.fixture
+def with_sensor(folder):
+    def write(sensor):
+        file = folder / "sensing.scenario.yaml"
+        file.write_text(
+            "name: sensing\nworld: {path: {points: [[0, 0], [5, 0]]}}\nplant: unicycle\n"
+            f"sensor: {sensor}\nhuman: steady\nautomation: stubbornness\n"
+        )
+        return file
+
+    return write
+
+
+def test_a_preset_stands_for_its_parameters(with_sensor):
+    assert load(with_sensor("laboratory")).sensor == sensor_preset("laboratory")
+    changed = load(with_sensor("{preset: industrial, noise_density: 0.5, bias: [1, 2]}")).sensor
+    assert changed == sensor_preset("industrial", noise_density=0.5, bias=(1.0, 2.0))
+    assert load(with_sensor("{noise_density: 0.1}")).sensor == SensorParameters(noise_density=0.1)
+
+
+def test_a_preset_can_be_set_and_changed_from_the_command_line(with_sensor):
+    file = with_sensor("laboratory")
+    changed = load(file, ("sensor=low-cost", "sensor.range=50")).sensor
+    assert changed == sensor_preset("low-cost", range=50.0)
+    assert load(file, ("sensor.preset=industrial",)).sensor == sensor_preset("industrial")
+
+
+def test_what_is_written_out_loads_as_an_equal_sensor(with_sensor, folder):
+    scenario = load(with_sensor("low-cost"))
+    copy = folder / "copy.yaml"
+    copy.write_text(to_yaml(scenario))
+    assert load(copy).sensor == scenario.sensor
+
+
+@pytest.mark.parametrize(
+    ("sensor", "named"),
+    [
+        (
+            "laboratry",
+            "sensor.preset: unknown sensor preset 'laboratry'; did you mean 'laboratory'?",
+        ),
+        ("{preset: 3}", "unknown sensor preset '3'"),
+        ("{preset: low-cost, rang: 3}", "sensor.rang: unknown key; did you mean 'range'?"),
+        ("{noise: [0.1, 0.1]}", "sensor.noise: unknown key"),
+        ("{drop_rate: 2}", "drop_rate = 2.0: it must be at least 0 and below 1"),
+        ("{bias: [1, a]}", "sensor.bias.1 = 'a': a number is expected, not text"),
+        ("{tare: 1}", "sensor.tare = 1: true or false is expected"),
+        ("{bias: [1, 2, 3]}", "bias has 3 entries; give one number, or 2, one a channel"),
+    ],
+)
+def test_faults_are_named(with_sensor, sensor, named):
+    file = with_sensor(sensor)
+    found = faults(file)
+    assert any(named in str(fault) for fault in found), found
+    assert {fault.line for fault in found} == {4}
+    with pytest.raises(InputError):
+        load(file)

@@ -1,0 +1,179 @@
+"""What each seat sees: its own obstacles, in range, in sight, in base axes."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from cowalk.sim.eyes import Eyes, covering_discs
+from cowalk.sim.footprint import Rectangle
+from cowalk.sim.motion import Path
+from cowalk.sim.observation import OBSTACLE_ROWS
+from cowalk.sim.sight import Pillar, Screen, behind_pillar, behind_screen
+from cowalk.sim.world import (
+    Corridor,
+    Doorway,
+    Furniture,
+    Obstacle,
+    Pedestrian,
+    SideCorridor,
+    ViewRange,
+    Wall,
+    World,
+)
+
+PATH = Path(((0.0, 0.0), (10.0, 0.0)))
+HERE, BESIDE = (0.0, 0.0, 0.0), (-0.1, -0.65, 0.0)
+
+
+def seen(world, seat="human", base=HERE, human=BESIDE, time=0.0, front=0.28):
+    rows = Eyes(world, seat, front).look(base, human, time)
+    return rows[rows[:, 0] > 0.0]
+
+
+def test_each_seat_sees_its_own_nearest_first_in_base_axes():
+    world = World(
+        PATH,
+        obstacles=(
+            Obstacle(8.0, 0.0, 0.5, seen_by=("human",)),
+            Obstacle(2.0, 1.0, 0.3, seen_by=("human",)),
+            Obstacle(1.0, 0.0, 0.1, seen_by=("automation",)),
+        ),
+    )
+    rows = seen(world, base=(2.0, 0.0, math.pi / 2))
+    expected = [[1.0, 1.0, 0.0, 0.3, 0.0, 0.0], [1.0, 0.0, -6.0, 0.5, 0.0, 0.0]]
+    np.testing.assert_allclose(rows, expected, atol=1e-12)
+
+
+def test_more_obstacles_than_rows_leaves_the_farthest_out():
+    crowd = tuple(Obstacle(float(x), 0.0, 0.1) for x in range(20, 0, -1))
+    rows = seen(World(PATH, obstacles=crowd))
+    np.testing.assert_allclose(rows[:, 1], np.arange(1, OBSTACLE_ROWS + 1))
+
+
+PUDDLE = Obstacle(6.0, 0.0, 0.3)
+
+
+@pytest.mark.parametrize(
+    ("between", "hidden"),
+    [
+        ({"furniture": (Furniture(3.0, 0.0, 0.4, 2.0, seen_by=()),)}, True),
+        ({"furniture": (Furniture(3.0, 1.4, 0.4, 2.0, seen_by=()),)}, False),
+        ({"furniture": (Furniture(8.0, 0.0, 0.4, 2.0, seen_by=()),)}, False),
+        ({"walls": (Wall((3.0, -4.0), (3.0, 4.0)),)}, True),
+        ({"corridor": Corridor(4.0, (Doorway(3.0, 1.0, 1.4),))}, True),
+        ({"corridor": Corridor(4.0, (Doorway(3.0, 1.0, 0.0),))}, False),
+        (
+            {"pedestrians": (Pedestrian(((2.0, 0.0), (2.0, 5.0)), start_time=1.0, radius=0.4),)},
+            True,
+        ),
+    ],
+)
+def test_what_stands_between_hides(between, hidden):
+    rows = seen(World(PATH, obstacles=(PUDDLE,), **between), "automation")
+    assert (not np.any(rows[:, 3] == 0.3)) == hidden
+
+
+def test_a_pedestrian_who_steps_aside_uncovers():
+    walker = Pedestrian(((2.0, 0.0), (2.0, 5.0)), speed=1.0, radius=0.4)
+    world = World(PATH, obstacles=(PUDDLE,), pedestrians=(walker,))
+    assert not np.any(seen(world, "automation", time=0.0)[:, 3] == 0.3)
+    assert np.any(seen(world, "automation", time=2.0)[:, 3] == 0.3)
+
+
+def test_the_edge_of_a_thing_is_enough():
+    box = Furniture(3.0, 0.5, 0.4, 1.1, seen_by=())  # from y = -0.05: hides the middle alone
+    assert len(seen(World(PATH, obstacles=(PUDDLE,), furniture=(box,)), "automation")) == 1
+    wider = Furniture(3.0, 0.5, 0.4, 1.6, seen_by=())  # from y = -0.3
+    assert not len(seen(World(PATH, obstacles=(PUDDLE,), furniture=(wider,)), "automation"))
+
+
+def test_the_two_seats_look_from_where_they_are():
+    # A cupboard on the left hides the robot's view of what the human, further right, sees.
+    box = Furniture(2.0, 0.2, 0.4, 0.8, seen_by=())
+    world = World(PATH, obstacles=(Obstacle(4.0, 0.25, 0.2),), furniture=(box,))
+    assert not len(seen(world, "automation"))
+    assert not len(seen(world, "human", human=(0.0, 0.3, 0.0)))
+    assert len(seen(world, "human", human=(0.0, -2.0, 0.0)))
+
+
+def test_around_the_corner_of_a_side_corridor():
+    corridor = Corridor(3.0, side_corridors=(SideCorridor(6.0, 2.0, "left", 5.0),))
+    world = World(PATH, corridor, (Obstacle(6.0, 4.5, 0.2),))
+    assert not len(seen(world))
+    assert len(seen(world, base=(6.0, 0.0, 0.0), human=(5.9, -0.65, 0.0)))
+
+
+def test_furniture_hides_what_is_behind_and_is_seen_itself():
+    box = Furniture(3.0, 0.0, 0.6, 0.6)
+    rows = seen(World(PATH, obstacles=(PUDDLE,), furniture=(box,)), human=HERE)
+    np.testing.assert_allclose(rows[0, :4], [1.0, 3.0, 0.0, math.hypot(0.3, 0.3)])
+    assert len(rows) == 1
+
+
+def test_a_doorway_is_seen_by_its_posts():
+    rows = seen(World(PATH, Corridor(4.0, (Doorway(5.0, 1.4, 0.2),))))
+    posts = sorted(rows[:, 2])
+    assert posts == pytest.approx([0.2 - 0.75, 0.2 + 0.75])
+    np.testing.assert_allclose(rows[:, [1, 3]], [[5.0, 0.05]] * 2)
+
+
+def test_range_is_counted_from_the_eye_to_the_edge():
+    world = World(PATH, obstacles=(PUDDLE,), view_range=ViewRange(human=5.9, automation=5.4))
+    assert len(seen(world, "human", human=(0.0, 0.0, 0.0)))
+    assert not len(seen(world, "human", human=(-0.3, 0.0, 0.0)))
+    assert not len(seen(world, "automation"))
+    assert len(seen(world, "automation", base=(0.1, 0.0, 0.0)))
+
+
+def test_pedestrians_velocity_is_over_ground_in_base_axes():
+    world = World(PATH, pedestrians=(Pedestrian(((4.0, 0.0), (4.0, 3.0)), 1.5),))
+    (row,) = seen(world, base=(0.0, 0.0, math.pi / 2), time=1.0)
+    np.testing.assert_allclose(row, [1.0, 1.5, -4.0, 0.22, 1.5, 0.0], atol=1e-12)
+
+
+@given(
+    st.floats(0.05, 3.0),
+    st.floats(0.05, 3.0),
+    st.floats(-4.0, 4.0),
+    st.floats(0.0, 1.0),
+    st.floats(0.0, 1.0),
+)
+def test_discs_cover_a_rectangle_and_little_more(half_length, half_width, yaw, u, v):
+    discs = np.array(covering_discs(Rectangle(1.0, -2.0, half_length, half_width, yaw)))
+    point = np.array(((2 * u - 1) * half_length, (2 * v - 1) * half_width))
+    cos, sin = math.cos(yaw), math.sin(yaw)
+    place = (1.0 + cos * point[0] - sin * point[1], -2.0 + sin * point[0] + cos * point[1])
+    away = np.hypot(*(discs[:, :2] - place).T) - discs[:, 2]
+    assert away.min() <= 1e-9
+    assert discs[:, 2].max() <= math.sqrt(2.0) * min(half_length, half_width) + 1e-9
+
+
+points = st.tuples(st.floats(-5, 5), st.floats(-5, 5))
+
+
+@given(points, points, st.floats(0.1, 2.0), st.floats(0.1, 2.0), st.floats(-3.2, 3.2))
+def test_a_line_through_a_rectangle_is_one_with_a_point_inside(eye, point, length, width, yaw):
+    eye, point = np.array(eye), np.array(point)
+    cos, sin = math.cos(yaw), math.sin(yaw)
+    screen = Screen(0, 0.3, -0.2, cos, sin, length, width)
+    way = eye + np.linspace(0.0, 1.0, 2001)[:, None] * (point - eye) - (0.3, -0.2)
+    along = np.abs(way @ (cos, sin)) - length
+    across = np.abs(way @ (-sin, cos)) - width
+    depth = np.maximum(along, across).min()
+    if abs(depth) > 0.01:  # sampling decides nothing closer than that
+        assert (behind_screen(eye, point, [screen]) is screen) == (depth < 0.0)
+        assert not behind_screen(eye, point, [screen], itself=0)
+
+
+@given(points, points, st.floats(0.1, 2.0))
+def test_a_line_through_a_disc_is_one_with_a_point_inside(eye, point, radius):
+    eye, point = np.array(eye), np.array(point)
+    way = eye + np.linspace(0.0, 1.0, 2001)[:, None] * (point - eye) - (0.3, -0.2)
+    depth = np.hypot(*way.T).min() - radius
+    if abs(depth) > 0.01:
+        pillar = Pillar(0, 0.3, -0.2, radius)
+        assert (behind_pillar(eye, point, [pillar]) is pillar) == (depth < 0.0)
+        assert not behind_pillar(eye, point, [pillar], itself=0)
