@@ -11,28 +11,35 @@ PYTHON ?= $(shell for python in python3.11 python3.12 python3 python; do \
 help:  ## Show the targets
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 8
 
-.venv/ready: pyproject.toml
+PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet
+
+.venv/run: pyproject.toml
 	@test -n "$(PYTHON)" || { echo "cowalk needs Python 3.11 or 3.12; set PYTHON=..." >&2; exit 2; }
 	$(PYTHON) -m venv .venv
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	$(PIP) --editable .
 	@touch $@
 
-run: .venv/ready  ## Run the closed-loop scenario and draw its picture
+# What developing takes on top; running does without it.
+.venv/develop: .venv/run
+	$(PIP) --editable '.[dev]'
+	@touch $@
+
+run: .venv/run  ## Run the closed-loop scenario and draw its picture
 	$(BIN)/cowalk run puddle --out runs/puddle
 
-test: .venv/ready  ## Run all tests
+test: .venv/develop  ## Run all tests
 	$(BIN)/python -m pytest
 
-lint: .venv/ready  ## Check style and formatting
+lint: .venv/develop  ## Check style and formatting
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 
-types: .venv/ready  ## Check the types of what is shipped
+types: .venv/develop  ## Check the types of what is shipped
 	rm -rf build/types
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --target build/types .
+	$(PIP) --no-deps --target build/types .
 	MYPYPATH=build/types $(BIN)/mypy
 
-bench: .venv/ready  ## Measure speed, as ratios within one run
+bench: .venv/run  ## Measure speed, as ratios within one run
 	$(BIN)/python -m benchmarks
 
 clean:  ## Remove everything that was made here

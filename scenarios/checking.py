@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 from pydantic import ValidationError
 
 from cowalk.agents.registry import AUTOMATIONS, HUMANS, IMPERFECTIONS
+from cowalk.estimation.observers import OBSERVERS
 from cowalk.estimation.smoothing import SMOOTHERS
 from cowalk.sim.errors import InputError
 from cowalk.sim.plants import PLANTS
@@ -31,6 +32,7 @@ REGISTRIES: dict[str, Registry[Any]] = {
     "human.imperfections": IMPERFECTIONS,
     "automation": AUTOMATIONS,
     "automation.smoother": SMOOTHERS,
+    "automation.observer": OBSERVERS,
 }
 """Where the components of each section are looked up."""
 
@@ -38,8 +40,9 @@ SHARED = {
     "plant": ("rates", "gui"),
     "human": ("intention",),
     "human.imperfections": ("human",),
-    "automation": ("negotiation", "smoother"),
+    "automation": ("negotiation", "smoother", "observer"),
     "automation.smoother": (),
+    "automation.observer": (),
 }
 """Constructor arguments that come from elsewhere in the scenario."""
 
@@ -95,8 +98,13 @@ def resolve(scenario: Scenario) -> Scenario:
         parameters = complete(REGISTRIES[section], component, SHARED[section])
         return component.model_copy(update={"parameters": parameters})
 
-    smoother = full(scenario.automation.smoother, "automation.smoother")
-    automation = full(scenario.automation, "automation").model_copy(update={"smoother": smoother})
+    seat = scenario.automation
+    automation = full(seat, "automation").model_copy(
+        update={
+            "smoother": full(seat.smoother, "automation.smoother"),
+            "observer": full(seat.observer, "automation.observer"),
+        }
+    )
     imperfections = tuple(
         full(item, "human.imperfections") for item in scenario.human.imperfections
     )
@@ -129,11 +137,15 @@ def _components(data: dict[str, Any], scenario: Scenario | None) -> list[Problem
 def _agents(scenario: Scenario) -> list[Problem]:
     """Return why the agents cannot be built: a value that only its constructor can judge."""
     seat = scenario.automation
-    smoother = attempt(SMOOTHERS, seat.smoother, "automation.smoother")
+    shared: dict[str, Any] = {
+        "negotiation": seat.negotiation,
+        "smoother": attempt(SMOOTHERS, seat.smoother, "automation.smoother"),
+        "observer": attempt(OBSERVERS, seat.observer, "automation.observer"),
+    }
     built = (
         attempt_human(scenario.human, scenario.plant.name, scenario.rates.period),
-        smoother,
-        attempt(AUTOMATIONS, seat, "automation", negotiation=seat.negotiation, smoother=smoother),
+        *shared.values(),
+        attempt(AUTOMATIONS, seat, "automation", **shared),
     )
     return [part for part in built if isinstance(part, Problem)]
 

@@ -49,6 +49,7 @@ class Kind(StrEnum):
     POPULATIONS = "populations"
     AUTOMATIONS = "automations"
     SMOOTHERS = "smoothers"
+    OBSERVERS = "observers"
     PLANTS = "plants"
     SENSORS = "sensors"
 
@@ -176,6 +177,7 @@ def list_parts(
 ) -> int:
     """List scenarios, humans, automations, sensors and everything else that has a name."""
     from cowalk.agents.registry import AUTOMATIONS, HUMANS, IMPERFECTIONS
+    from cowalk.estimation.observers import OBSERVERS
     from cowalk.estimation.smoothing import SMOOTHERS
     from cowalk.sim.plants import PLANTS
     from cowalk.sim.sensor_parameters import PRESETS
@@ -185,6 +187,7 @@ def list_parts(
         Kind.IMPERFECTIONS: IMPERFECTIONS,
         Kind.AUTOMATIONS: AUTOMATIONS,
         Kind.SMOOTHERS: SMOOTHERS,
+        Kind.OBSERVERS: OBSERVERS,
         Kind.PLANTS: PLANTS,
     }
     found: dict[str, list[dict[str, str]]] = {}

@@ -97,7 +97,7 @@ def load(source: str | Path, overrides: Sequence[str] = ()) -> Scenario:
     if isinstance(document.data, dict) and not document.problems:
         for assignment in overrides:
             overridden[override(document.data, assignment)] = assignment
-        expand_names(document.data)
+            expand_names(document.data)
     scenario, problems = check(document)
     if problems:
         first = min(problems, key=lambda problem: document.line(problem.path))

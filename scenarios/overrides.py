@@ -16,6 +16,7 @@ COMPONENTS: tuple[tuple[str, ...], ...] = (
     ("human",),
     ("automation",),
     ("automation", "smoother"),
+    ("automation", "observer"),
 )
 """Sections that name a replaceable part; outer ones first."""
 COMPONENT_LISTS: tuple[tuple[str, ...], ...] = (("human", "imperfections"),)
@@ -54,8 +55,8 @@ def override(data: dict[str, Any], assignment: str) -> KeyPath:
     """Replace one value of plain data in place, and return where it stands.
 
     A component set to a name alone is swapped: its ``parameters`` go with the old name, what
-    else its section holds (``intention``, ``imperfections``, ``negotiation``, ``smoother``)
-    stays.
+    else its section holds (``intention``, ``imperfections``, ``negotiation``, ``smoother``,
+    ``observer``) stays.
 
     Parameters
     ----------

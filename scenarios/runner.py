@@ -14,6 +14,7 @@ import numpy as np
 
 from cowalk.agents.interfaces import Automation, Belief, Human, Situation, Truth
 from cowalk.agents.registry import AUTOMATIONS
+from cowalk.estimation.observers import OBSERVERS
 from cowalk.estimation.smoothing import SMOOTHERS
 from cowalk.sim.env import CowalkEnv
 from cowalk.sim.errors import InputError, SimulationError
@@ -72,13 +73,14 @@ def build_agents(scenario: Scenario) -> tuple[Human, Automation]:
         If a name or a parameter is not right.
     """
     human = build_human(scenario.human, scenario.plant.name, scenario.rates.period)
-    smoother = build(SMOOTHERS, scenario.automation.smoother, "automation.smoother")
+    seat = scenario.automation
     automation = build(
         AUTOMATIONS,
-        scenario.automation,
+        seat,
         "automation",
-        negotiation=scenario.automation.negotiation,
-        smoother=smoother,
+        negotiation=seat.negotiation,
+        smoother=build(SMOOTHERS, seat.smoother, "automation.smoother"),
+        observer=build(OBSERVERS, seat.observer, "automation.observer"),
     )
     return human, automation
 
@@ -267,6 +269,7 @@ def _result(
         "human": scenario.human.name,
         "automation": scenario.automation.name,
         "smoother": scenario.automation.smoother.name,
+        "observer": scenario.automation.observer.name,
         "seed": scenario.seed,
         "end": end,
         "error": error,

@@ -41,10 +41,11 @@ class HumanComponent(Component):
 
 
 class AutomationComponent(Component):
-    """The automation seat. ``negotiation`` and ``smoother`` stay when the strategy is swapped."""
+    """The automation seat. What it shares with others stays when the strategy is swapped."""
 
     negotiation: NegotiationSettings = Field(default_factory=NegotiationSettings)
     smoother: Component = Component(name="moving-average")
+    observer: Component = Component(name="paper")
 
 
 class Scenario(BaseModel):

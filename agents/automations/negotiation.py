@@ -8,9 +8,10 @@ from copy import deepcopy
 import numpy as np
 
 from cowalk.agents.interfaces import Belief, Observation, Situation
-from cowalk.estimation.intent import human_wish, mean_force, wish_change
+from cowalk.estimation.intent import mean_force
+from cowalk.estimation.observers import ForceReading, Observer, PaperObserver
 from cowalk.estimation.smoothing import MovingAverage, Smoother
-from cowalk.estimation.stubbornness import interaction_value, stubbornness, stubbornness_norm
+from cowalk.estimation.stubbornness import interaction_value, stubbornness_norm
 from cowalk.sim.motion import Array
 
 from .planner import PROBLEMS
@@ -29,16 +30,20 @@ class NegotiatingAutomation(ABC):
     negotiation : NegotiationSettings
     smoother : Smoother
         Smooths the interaction value; a copy of it smooths the logged stubbornness.
+    observer : Observer
+        Reads stubbornness and wish from the force.
     """
 
     def __init__(
         self,
         negotiation: NegotiationSettings | None = None,
         smoother: Smoother | None = None,
+        observer: Observer | None = None,
     ) -> None:
         self.negotiation = negotiation or NegotiationSettings()
         self._interaction_smoother = smoother or MovingAverage()
         self._stubbornness_smoother = deepcopy(self._interaction_smoother)
+        self._observer: Observer = observer or PaperObserver()
 
     @abstractmethod
     def utility_loss(self, interaction_smoothed: Array) -> Array:
@@ -49,11 +54,13 @@ class NegotiatingAutomation(ABC):
         settings = self.negotiation
         self._steps = settings.steps(situation.period)
         self._situation = situation
-        self._lower = np.asarray(situation.bounds.lower, dtype=float)
-        self._upper = np.asarray(situation.bounds.upper, dtype=float)
-        self._force_max = np.asarray(settings.force_max, dtype=float)
-        self._threshold = np.asarray(settings.force_threshold, dtype=float)
-        self._sensitivity = np.asarray(settings.sensitivity, dtype=float)
+        self._reading = ForceReading(
+            force_max=np.asarray(settings.force_max, dtype=float),
+            force_threshold=np.asarray(settings.force_threshold, dtype=float),
+            sensitivity=np.asarray(settings.sensitivity, dtype=float),
+            lower=np.asarray(situation.bounds.lower, dtype=float),
+            upper=np.asarray(situation.bounds.upper, dtype=float),
+        )
         self._negotiated = slice(0 if settings.dimensions == "both" else 1, 2)
         self._count = 0
         self._belief = Belief()
@@ -75,17 +82,11 @@ class NegotiatingAutomation(ABC):
         force = mean_force(observation["force"], observation.get("force_valid"))
         pose = observation["pose_world"]
         if self._count == 0:
-            self._wish_before = twist
+            self._observer.reset(self._reading, twist)
             self._loss = np.zeros(twist.shape[:-1])
             self._interaction_smoother.reset(interaction_value(self._loss, self._loss))
             self._stubbornness_smoother.reset(np.zeros(twist.shape))
-        estimate = stubbornness(
-            force, self._force_max, self._wish_before, twist, self._lower, self._upper
-        )
-        change = wish_change(
-            force, self._force_max, self._threshold, self._sensitivity, self._upper
-        )
-        wish = human_wish(twist, change, self._lower, self._upper)
+        estimate, wish = self._observer.update(force, twist)
         interaction = interaction_value(
             stubbornness_norm(estimate[..., self._negotiated]), self._loss
         )
@@ -95,7 +96,6 @@ class NegotiatingAutomation(ABC):
         own = problem.wish()
         target = 1.0 - self._loss
         agreed = negotiated(problem, own, self._negotiable(wish), target)
-        self._wish_before = wish
         self._belief = Belief(
             stubbornness=estimate,
             stubbornness_smoothed=self._stubbornness_smoother.update(estimate),

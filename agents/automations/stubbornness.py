@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from cowalk.estimation.observers import Observer
 from cowalk.estimation.smoothing import Smoother
 from cowalk.estimation.stubbornness import utility_loss
 from cowalk.sim.motion import Array
@@ -21,7 +22,7 @@ class StubbornnessAutomation(NegotiatingAutomation):
     interaction_min, interaction_max : float
         Smoothed interaction value at which nothing, and everything, is conceded. Inferred:
         the paper calls them selectable and does not print them.
-    negotiation, smoother
+    negotiation, smoother, observer
         See `NegotiatingAutomation`.
 
     Raises
@@ -36,8 +37,9 @@ class StubbornnessAutomation(NegotiatingAutomation):
         interaction_max: float = 2.0,
         negotiation: NegotiationSettings | None = None,
         smoother: Smoother | None = None,
+        observer: Observer | None = None,
     ) -> None:
-        super().__init__(negotiation, smoother)
+        super().__init__(negotiation, smoother, observer)
         if not interaction_min < interaction_max:
             raise ValueError(
                 f"interaction_min = {interaction_min} must lie below "

@@ -1,10 +1,17 @@
 """The sensor's section of a scenario: a preset by its name, and what is changed about it."""
 
+import itertools
+
+import numpy as np
 import pytest
 
+from cowalk.scenarios import run
 from cowalk.scenarios.loading import faults, load, to_yaml
+from cowalk.sim.bullet_coupling import COUPLINGS
+from cowalk.sim.drive import DRIVES
 from cowalk.sim.errors import InputError
-from cowalk.sim.sensor_parameters import SensorParameters, sensor_preset
+from cowalk.sim.grip import GRIPS
+from cowalk.sim.sensor_parameters import PRESETS, SensorParameters, sensor_preset
 
 
 @pytest.fixture
@@ -64,3 +71,28 @@ def test_faults_are_named(with_sensor, sensor, named):
     assert {fault.line for fault in found} == {4}
     with pytest.raises(InputError):
         load(file)
+
+
+OPTIONS = list(itertools.product(PRESETS, DRIVES, GRIPS, COUPLINGS))
+
+
+@pytest.mark.parametrize("option", OPTIONS, ids="-".join)
+def test_every_sensor_on_every_way_of_building_the_plant(option):
+    preset, drive, grip, coupling = option
+    built = [
+        f"plant.parameters.drive.kind={drive}",
+        f"plant.parameters.grip.kind={grip}",
+        f"plant.parameters.coupling.kind={coupling}",
+        "duration=1.5",
+        "expect={}",
+    ]
+    sensed = [run(load("walk", [*built, f"sensor={preset}"])) for _ in range(2)]
+    assert sensed[0].error is None, sensed[0].error
+    assert sensed[0].trace.values.tobytes() == sensed[1].trace.values.tobytes()
+    exact = run(load("walk", [*built, "sensor={}"])).trace
+    for axis in ("fx", "fy"):
+        read, felt = sensed[0].trace[axis], exact[axis]
+        assert np.isfinite(read).all()
+        assert (read != felt).any()
+        # Worst fault of a preset that is not saturated: latency, on a force that moves by newtons.
+        assert np.abs(read - felt).max() < 0.5 * np.ptp(felt) + 1.0
