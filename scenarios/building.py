@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import inspect
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from functools import lru_cache
 from typing import Any, TypeVar, get_type_hints
 
@@ -92,13 +92,18 @@ def complete(
     registry, component, shared
         See `check_parameters`.
     """
-    constructor = registry.get(component.name)
-    defaults = {
-        name: parameter.default
-        for name, parameter in _accepted(constructor).items()
-        if name not in shared and isinstance(parameter.default, _PLAIN)
-    }
-    return defaults | component.parameters
+    given = dict(component.parameters)
+    for name, parameter in _accepted(registry.get(component.name)).items():
+        default = parameter.default
+        if name in shared or isinstance(default, type):
+            continue
+        if isinstance(default, _PLAIN):
+            given.setdefault(name, default)
+        elif dataclasses.is_dataclass(default) and isinstance(given.get(name, {}), Mapping):
+            fields = dataclasses.asdict(default)
+            plain = {key: value for key, value in fields.items() if isinstance(value, _PLAIN)}
+            given[name] = plain | given.get(name, {})
+    return given
 
 
 def _prepare(

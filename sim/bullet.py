@@ -67,14 +67,14 @@ class BulletPlant:
     def __init__(
         self,
         rates: Rates,
-        drive: DriveParameters | None = None,
-        body: BodyParameters | None = None,
-        walker: WalkerParameters | None = None,
-        gait: GaitParameters | None = None,
-        grip: GripParameters | None = None,
-        coupling: CouplingParameters | None = None,
-        robot: RobotParameters | None = None,
-        mount: SensorMount | None = None,
+        drive: DriveParameters = DriveParameters(),
+        body: BodyParameters = BodyParameters(),
+        walker: WalkerParameters = WalkerParameters(),
+        gait: GaitParameters = GaitParameters(),
+        grip: GripParameters = GripParameters(),
+        coupling: CouplingParameters = CouplingParameters(),
+        robot: RobotParameters = RobotParameters(),
+        mount: SensorMount = SensorMount(),
         gui: bool = False,
     ) -> None:
         self._rates = rates

@@ -140,6 +140,7 @@ def test_a_run_folder_holds_everything_and_runs_again(puddle, tmp_path):
     # Defaults are written out, so that the file still gives this run when they have changed.
     assert resolved.human.parameters["growth"] == 0.38
     assert resolved.automation.smoother.parameters == {"window": 5}
+    assert resolved.plant.parameters["drive"]["gain_forward"] == 2000.0
     again = run(resolved)
     assert again.trace.values.tobytes() == puddle.trace.values.tobytes()
 
