@@ -100,7 +100,7 @@ def complete(
         if isinstance(default, _PLAIN):
             given.setdefault(name, default)
         elif dataclasses.is_dataclass(default) and isinstance(given.get(name, {}), Mapping):
-            fields = dataclasses.asdict(default)
+            fields = vars(default)
             plain = {key: value for key, value in fields.items() if isinstance(value, _PLAIN)}
             given[name] = plain | given.get(name, {})
     return given
