@@ -72,6 +72,7 @@ def measure() -> list[tuple[str, float, str]]:
     env = parallel_env()
     env.reset(seed=0)
     plant, substeps = env._plant, env.rates.substeps
+    outlines, eye = tuple(plant.bodies.outlines.values()), plant.bodies.eyes["human"]
 
     def bare() -> None:
         for _ in range(STEPS * substeps):
@@ -91,13 +92,13 @@ def measure() -> list[tuple[str, float, str]]:
     rows: list[tuple[str, float, str]] = []
     for count in COUNTS:
         world = crowded(count)
-        engine = EngineClearance(world, RADII)
+        engine = EngineClearance(world, outlines)
         parts = {
             "bare engine steps": bare,
             "distances by the engine": lambda engine=engine: walk(engine),
             "distances in closed form": lambda world=world: walk(Clearance(world, RADII)),
             "the same in arrays": lambda world=world: walk(ArrayClearance(world)),
-            "sight of one seat": lambda world=world: look(Eyes(world, "human")),
+            "sight of one seat": lambda world=world: look(Eyes(world, "human", eye)),
         }
         wall = dict.fromkeys(parts, math.inf)
         for _ in range(3):

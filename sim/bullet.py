@@ -20,8 +20,9 @@ from .errors import SimulationError
 from .gait import Gait, GaitParameters
 from .grip import GripParameters
 from .motion import Array
+from .outline import Bodies
 from .parameters import parameters
-from .plant import BASE_RADIUS, HUMAN_RADIUS, PlantState, Rates
+from .plant import PlantState, Rates
 from .robot import RobotParameters
 from .walker import Walker, WalkerParameters
 from .world import World
@@ -210,6 +211,7 @@ class BulletPlant:
                 )
         x, y, yaw, vx, vy, rate = pair.base_state
         human = pair.human_state
+        load = pair.load_state
         lost = not pair.hands.held
         return PlantState(
             pose=(x, y, yaw),
@@ -221,18 +223,24 @@ class BulletPlant:
             grip_held=not lost,
             over=lost and self._grip.on_loss == "end",
             time=self._steps * self._rates.period,
+            load_pose=(load[0], load[1], load[2]) if load else None,
         )
 
     def distances(self, world: World) -> EngineClearance:
-        """See `Plant.distances`: by the engine, from the shapes of base and body."""
+        """See `Plant.distances`: by the engine."""
         if self._distances is not None:
             self._distances.close()
-        self._distances = EngineClearance(world, (BASE_RADIUS, HUMAN_RADIUS))
+        self._distances = EngineClearance(world, tuple(self.bodies.outlines.values()))
         return self._distances
 
     def bare_step(self) -> None:
         """Step the engine alone, nothing driven or read: what a benchmark compares with."""
         engine.stepSimulation(self._pair.client)
+
+    @property
+    def bodies(self) -> Bodies:
+        """See `Plant.bodies`: as robot, human and load are built."""
+        return self._pair.bodies
 
     @property
     def handle(self) -> tuple[float, float, float]:

@@ -5,8 +5,16 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from .anthropometry import SHOULDER_HEIGHT, BodyParameters, yaw_inertia
+from .anthropometry import (
+    EYE_HEIGHT,
+    SHOULDER_HEIGHT,
+    BodyParameters,
+    trunk_breadth,
+    trunk_depth,
+    yaw_inertia,
+)
 from .arm import ELBOW_RANGE, SHOULDER_RANGE, Arm, arm_of
+from .outline import Outline, across
 from .urdf import Vector, hinge, link, planar
 
 BESIDE = (0.25, 0.15)
@@ -122,6 +130,16 @@ def human_body(parameters: BodyParameters, handles: tuple[Vector, ...]) -> Human
     body = HumanBody(parameters, arms, pivots, place, rest)
     _ = body.posture  # refuses what is out of reach, before anything is built
     return body
+
+
+def trunk_outline(parameters: BodyParameters) -> Outline:
+    """Return what the trunk occupies; arms give way, legs are pictures."""
+    return across(trunk_breadth(parameters), trunk_depth(parameters))
+
+
+def eye(parameters: BodyParameters) -> Vector:
+    """Return where a human sees from, trunk axes, m."""
+    return 0.0, 0.0, EYE_HEIGHT * parameters.height
 
 
 def _at(arm: Arm, scale: float) -> tuple[float, float]:
