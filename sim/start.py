@@ -47,7 +47,7 @@ def blocked_start(
             if touching and clearance < deepest:
                 deepest = clearance
                 said = f"the {name} is {-clearance:.2g} m inside {what}"
-    return f"start = {start}: {said}; {_cure(world, bodies, poses, distances(world))}"
+    return f"world.start = {start}: {said}; {_cure(world, bodies, poses, distances(world))}"
 
 
 def _parts(world: World) -> list[tuple[str, World]]:
@@ -59,24 +59,29 @@ def _parts(world: World) -> list[tuple[str, World]]:
         # Doorways end at the corridor's walls, and side corridors open them.
         bare = replace(corridor, doorways=())
         found.append(
-            (f"a wall of the corridor (width {bare.width:g} m)", replace(empty, corridor=bare))
+            (f"a wall of world.corridor (width = {bare.width:g})", replace(empty, corridor=bare))
         )
         found += [
-            (f"corridor.doorways.{n}", replace(empty, corridor=replace(bare, doorways=(door,))))
+            (
+                f"world.corridor.doorways.{n}",
+                replace(empty, corridor=replace(bare, doorways=(door,))),
+            )
             for n, door in enumerate(corridor.doorways)
         ]
-    found += [(f"walls.{n}", replace(empty, walls=(wall,))) for n, wall in enumerate(world.walls)]
     found += [
-        (f"obstacles.{n} ({thing.kind})", replace(empty, obstacles=(thing,)))
+        (f"world.walls.{n}", replace(empty, walls=(wall,))) for n, wall in enumerate(world.walls)
+    ]
+    found += [
+        (f"world.obstacles.{n} ({thing.kind})", replace(empty, obstacles=(thing,)))
         for n, thing in enumerate(world.obstacles)
         if thing.solid
     ]
     found += [
-        (f"furniture.{n} ({item.kind})", replace(empty, furniture=(item,)))
+        (f"world.furniture.{n} ({item.kind})", replace(empty, furniture=(item,)))
         for n, item in enumerate(world.furniture)
     ]
     found += [
-        (f"pedestrians.{n}", replace(empty, pedestrians=(walker,)))
+        (f"world.pedestrians.{n}", replace(empty, pedestrians=(walker,)))
         for n, walker in enumerate(world.pedestrians)
     ]
     return found

@@ -289,20 +289,25 @@ def test_a_puddle_below_a_stretcher_is_not_touched_by_it():
     [
         (
             World(PATH, furniture=(Furniture(0.0, 5.0, 1, 1), Furniture(0.3, 0.3, 0.5, 0.5))),
-            r"the base is 0\.\d+ m inside furniture\.1 \(furniture\); \[.*\] would be free",
+            r"the base is 0\.\d+ m inside world\.furniture\.1 \(furniture\); \[.*\] would be free",
         ),
-        (World(PATH, Corridor(1.6)), r"the human .* a wall of the corridor \(width 1\.6 m\); \["),
+        (
+            World(PATH, Corridor(1.6)),
+            r"the human .* a wall of world\.corridor \(width = 1\.6\); \[",
+        ),
         (World(PATH, Corridor(1.0)), r".*: the base and the human take 1\.1\d m across"),
-        (World(PATH, walls=(Wall((-1.0, -0.7), (1.0, -0.7)),)), r"the human .* walls\.0;"),
+        (World(PATH, walls=(Wall((-1.0, -0.7), (1.0, -0.7)),)), r"the human .*walls\.0;"),
         (
             World(PATH, pedestrians=(Pedestrian(((0.0, 0.4), (3.0, 0.4))),)),
-            r"the base .* pedestrians\.0;",
+            r"the base .*pedestrians\.0;",
         ),
     ],
 )
 def test_a_start_in_touch_with_something_solid_is_refused(plant, world, named):
     env = parallel_env(world, plant=plant)
-    with pytest.raises(InputError, match=rf"^start = \[0\.0, 0\.0, 0\.0\]: {named}") as raised:
+    with pytest.raises(
+        InputError, match=rf"^world\.start = \[0\.0, 0\.0, 0\.0\]: {named}"
+    ) as raised:
         env.reset(seed=0)
     env.close()
     cure = str(raised.value).partition("; [")[2].partition("]")[0]
