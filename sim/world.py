@@ -9,7 +9,7 @@ from typing import Literal
 
 from .errors import InputError
 from .heights import usual_height
-from .motion import Path
+from .path import Path
 from .pedestrians import Pedestrian
 from .seats import SEATS, check_seats
 

@@ -15,8 +15,8 @@ from cowalk.sim.bullet_world import EngineClearance
 from cowalk.sim.errors import InputError
 from cowalk.sim.footprint import corners, furniture
 from cowalk.sim.human_body import trunk_outline
-from cowalk.sim.motion import Path
 from cowalk.sim.outline import across, disc, hull, rectangle
+from cowalk.sim.path import Path
 from cowalk.sim.robot import RobotParameters, robot_of
 from cowalk.sim.urdf_outline import robot_outline
 from cowalk.sim.world import Corridor, Furniture, Obstacle, Pedestrian, Wall, World

@@ -8,7 +8,7 @@ import pytest
 from matplotlib.colors import to_rgb
 
 from cowalk.sim import topview
-from cowalk.sim.motion import Path
+from cowalk.sim.path import Path
 from cowalk.sim.plant import PLAIN_BODIES, PlantState
 from cowalk.sim.topview import BASE, FLOOR, FORCE, HUMAN, PASSER, PUDDLE, SOLID, WALL
 from cowalk.sim.world import Corridor, Doorway, Furniture, Obstacle, Pedestrian, SideCorridor, World
