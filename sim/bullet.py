@@ -230,7 +230,7 @@ class BulletPlant:
         """See `Plant.distances`: by the engine."""
         if self._distances is not None:
             self._distances.close()
-        self._distances = EngineClearance(world, tuple(self.bodies.outlines.values()))
+        self._distances = EngineClearance(world, self.bodies.parts)
         return self._distances
 
     def bare_step(self) -> None:

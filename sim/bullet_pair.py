@@ -15,7 +15,7 @@ from .bullet_wheels import WheelBase
 from .drive import DriveParameters
 from .errors import InputError
 from .grip import GripParameters
-from .human_body import eye, human_body, trunk_outline
+from .human_body import arm_outlines, eye, human_body, trunk_outline
 from .outline import Bodies
 from .robot import RobotParameters, robot_of, two_hands
 from .urdf import Vector
@@ -74,7 +74,7 @@ class Pair:
         if carried:
             outlines["load"] = load_outline(coupling, robot.handle[2])
         seats = {"automation": robot.camera, "human": eye(parameters.body)}
-        self.bodies = Bodies(outlines, seats)
+        self.bodies = Bodies(outlines, seats, arm_outlines(self.body, handles))
 
         # Nothing is refused from here on, so that no client is left behind.
         self.client = client = connect()

@@ -24,6 +24,9 @@ FAR = 1e3
 """Distance up to which the engine is asked to look, m."""
 SLACK = 0.01
 """Added to bounds on distances, m: far above the engine's own error, 0.5 mm."""
+AHEAD = 0.4
+"""How much farther than the nearest body's distance others are looked around, m: less is asked
+more often, more is slower to ask."""
 KEPT = 4
 """Empty engine worlds kept for the next ones: emptying one takes a tenth of opening one."""
 _idle: list[int] = []
@@ -59,11 +62,11 @@ class EngineClearance:
     Parameters
     ----------
     world : World
-    outlines : sequence of Outline
-        Of each body, in the order in which calls get their poses.
+    parts : sequence of (int, Outline)
+        See `Bodies.parts`: what is measured, and the number of the pose that it goes with.
     """
 
-    def __init__(self, world: World, outlines: Sequence[Outline]) -> None:
+    def __init__(self, world: World, parts: Sequence[tuple[int, Outline]]) -> None:
         self._client = _empty_client()
         self._time = 0.0
         self._walkers = [
@@ -85,7 +88,7 @@ class EngineClearance:
         # One body, a link each: the engine is asked once for all of them.
         self._scene = self._scenery(shapes) if shapes else None
         self._bodies = []
-        for number, outline in enumerate(outlines):
+        for number, outline in parts:
             shape, margin = self._shape(outline)
             meets = [top >= outline.underside for top in tops]
             self._bodies.append(_Body(number, self._body(shape), outline.swing, margin, meets))
@@ -175,7 +178,8 @@ class EngineClearance:
                 continue
             turn = (0.0, 0.0, math.sin(yaw / 2.0), math.cos(yaw / 2.0))
             place(body.index, (x, y, 0.0), turn, client)
-            reach = min(max(min(body.at_most, nearest), 0.0) + SLACK, FAR)
+            # Farther than the nearest: a body that is not it is then left alone for a while.
+            reach = min(max(min(body.at_most + SLACK, nearest + AHEAD), SLACK), FAR)
             found, solid = self._closest(body, reach)
             touching = touching or solid < 0.0
             if found < math.inf:

@@ -14,13 +14,15 @@ from .anthropometry import (
     yaw_inertia,
 )
 from .arm import ELBOW_RANGE, SHOULDER_RANGE, Arm, arm_of
-from .outline import Outline, across
+from .outline import Outline, across, bar
 from .urdf import Vector, hinge, link, planar
 
 BESIDE = (0.25, 0.15)
 """Where a single hand rests, ahead of its shoulder and outwards, m: at 1.75 m and a handle at
 `USUAL_HEIGHT`; others bend their elbow as much (inferred: led by hand)."""
 USUAL_HEIGHT = 1.04
+ARM_RADIUS = 0.04
+"""m (inferred)."""
 RELAXED_ELBOW = -1.9
 """Elbow angle of both hands on a bar ahead, rad: midway between straight and fully bent, so that
 the arms can give way to either side (inferred)."""
@@ -133,8 +135,17 @@ def human_body(parameters: BodyParameters, handles: tuple[Vector, ...]) -> Human
 
 
 def trunk_outline(parameters: BodyParameters) -> Outline:
-    """Return what the trunk occupies; arms give way, legs are pictures."""
+    """Return what the trunk occupies; free arms give way, legs are pictures."""
     return across(trunk_breadth(parameters), trunk_depth(parameters))
+
+
+def arm_outlines(human: HumanBody, handles: tuple[Vector, ...]) -> tuple[Outline, ...]:
+    """Return what the arms occupy that hold given handles, from shoulder to hand, trunk axes."""
+    shoulders = SHOULDER_HEIGHT * human.parameters.height
+    return tuple(
+        bar(arm.shoulder, rest, ARM_RADIUS, min(shoulders, handle[2]) - ARM_RADIUS)
+        for arm, rest, handle in zip(human.arms, human.rest, handles, strict=True)
+    )
 
 
 def eye(parameters: BodyParameters) -> Vector:

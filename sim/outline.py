@@ -90,10 +90,19 @@ class Bodies:
         `cowalk.sim.plant.PlantState.poses`.
     eyes : dict of str to (x, y, z)
         Where each seat sees from, m: the automation's in base axes, the human's in the trunk's.
+    arms : tuple of Outline
+        Arms that hold on, in the trunk's axes: nothing solid of their height gets between the two.
     """
 
     outlines: dict[str, Outline]
     eyes: dict[str, tuple[float, float, float]]
+    arms: tuple[Outline, ...] = ()
+
+    @property
+    def parts(self) -> tuple[tuple[int, Outline], ...]:
+        """Every outline with the number of the pose that it goes with."""
+        human = list(self.outlines).index("human")
+        return (*enumerate(self.outlines.values()), *((human, arm) for arm in self.arms))
 
 
 def disc(radius: float) -> Outline:
@@ -105,6 +114,13 @@ def across(breadth: float, depth: float) -> Outline:
     """Return a capsule that lies across: its whole breadth along y, its depth along x, m."""
     radius, half = depth / 2.0, max(0.0, breadth - depth) / 2.0
     return Outline(((0.0, half, radius), (0.0, -half, radius)))
+
+
+def bar(
+    start: tuple[float, float], end: tuple[float, float], radius: float, underside: float
+) -> Outline:
+    """Return a capsule from one point to another, m."""
+    return Outline(((*start, radius), (*end, radius)), underside)
 
 
 def rectangle(

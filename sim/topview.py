@@ -23,7 +23,7 @@ METRES_PER_NEWTON = 0.1
 
 FLOOR, WALL, PATH = "#f2f0ec", "#5c5f66", "#8c8f96"
 BASE, HEADING, HUMAN, HEAD, FORCE = "#0d7390", "#ffffff", "#b8383a", "#3f2a1c", "#e8890c"
-LOAD = "#d9cc9e"
+LOAD, ARM = "#d9cc9e", "#dead8a"
 HEAD_RADIUS = 0.1
 """m."""
 PUDDLE, SOLID, PASSER = "#4c9be8", "#7a6a58", "#4f8a5b"
@@ -154,5 +154,7 @@ def _draw_bodies(
         axes.add_patch(
             Polygon(outline.at(pose), facecolor=colours[name], edgecolor="white", zorder=4)
         )
+    for arm in bodies.arms:
+        axes.add_patch(Polygon(arm.at(state.human_pose), facecolor=ARM, zorder=4.5))
     axes.add_patch(Circle(state.human_pose[:2], HEAD_RADIUS, facecolor=HEAD, zorder=5))
     return bodies.outlines["base"].box

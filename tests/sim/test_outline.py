@@ -55,7 +55,7 @@ def test_the_engine_measures_turned_outlines_as_geometry_does(name):
     }
     rng = np.random.default_rng(3)
     for world, shape in things.items():
-        measure = EngineClearance(world, [outline])
+        measure = EngineClearance(world, [(0, outline)])
         pose = np.zeros(3)
         for step in range(160):
             # Small steps, as a run makes them, and leaps, as a reset does.
@@ -70,7 +70,7 @@ def test_the_engine_measures_turned_outlines_as_geometry_does(name):
 
 def test_a_box_by_hand():
     world = World(PATH, Corridor(2.0))
-    measure = EngineClearance(world, [rectangle(-0.6, 0.2, -0.3, 0.3)])
+    measure = EngineClearance(world, [(0, rectangle(-0.6, 0.2, -0.3, 0.3))])
     assert measure(0.0, (0.0, 0.0, 0.0))[0] == pytest.approx(0.7, abs=1e-3)
     assert measure(0.0, (0.0, 0.0, math.pi / 2))[0] == pytest.approx(0.4, abs=1e-3)
     turned = 1.0 - 0.6 * math.sin(0.5) - 0.3 * math.cos(0.5)
@@ -272,6 +272,24 @@ def test_a_stretcher_swings_into_what_base_and_human_pass():
 def test_a_stretcher_passes_over_what_is_lower(height, collides):
     low = Obstacle(-0.9, -0.42, 0.1, "crate", height=height)
     assert stretcher({"obstacles": (low,)}, (0.0, 0.5), 60)[0]["collision"] == collides
+
+
+@pytest.mark.parametrize(
+    ("thing", "collides"),
+    [
+        ({"obstacles": (Obstacle(1.0, -0.36, 0.03, "post", height=1.2),)}, True),
+        ({"obstacles": (Obstacle(1.0, -0.36, 0.03, "post", height=0.6),)}, False),
+        ({"obstacles": (Obstacle(1.0, -0.36, 0.03),)}, False),
+        ({"walls": (Wall((1.0, -0.36), (9.0, -0.36), 0.05),)}, True),
+    ],
+)
+def test_nothing_as_high_as_the_arm_passes_between_the_two(thing, collides):
+    env = parallel_env(World(PATH, **thing), duration=3.0)
+    infos = env.reset(seed=0)[1]
+    while env.agents:
+        infos = env.step({"human": np.zeros(2), "automation": np.array([0.8, 0.0])})[-1]
+    env.close()
+    assert infos["human"]["collision"] == collides
 
 
 def test_a_puddle_below_a_stretcher_is_not_touched_by_it():

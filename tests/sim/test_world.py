@@ -37,7 +37,7 @@ RICH = World(
 
 
 def engine_clearance(world, *radii):
-    return EngineClearance(world, [disc(radius) for radius in radii])
+    return EngineClearance(world, [*enumerate(map(disc, radii))])
 
 
 @pytest.fixture(params=[Clearance, EngineClearance])
