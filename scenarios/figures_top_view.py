@@ -17,6 +17,7 @@ from .figures_panels import TRUTH
 from .figures_style import AGREED, AUTOMATION, HUMAN, MUTED, halo, label_unit
 
 if TYPE_CHECKING:
+    from cowalk.sim.outline import Outline
     from cowalk.sim.world import World
 
     from .results import RunResult
@@ -107,8 +108,7 @@ def draw_top_view(axis: Axes, result: RunResult, data: dict[str, Array], window:
     times, rows, stride = _footprints(data["t"], horizon)
     _draw_bodies(axis, result, data, rows)
     _draw_wishes(axis, data, rows[::stride], horizon)
-    reach = result.outlines["base"].reach
-    _draw_times(axis, data, rows[::stride], times[::stride], reach)
+    _draw_times(axis, result.outlines["base"], data, rows[::stride], times[::stride])
     axis.set_title("Top view")
     label_unit(axis, "$y$ (m)")
     axis.set_xlabel("$x$ (m)", labelpad=1.0)
@@ -212,10 +212,13 @@ def _draw_wishes(axis: Axes, data: dict[str, Array], rows: Rows, horizon: float)
             )
 
 
-def _draw_times(axis: Axes, data: dict[str, Array], rows: Rows, times: Array, reach: float) -> None:
+def _draw_times(
+    axis: Axes, base: Outline, data: dict[str, Array], rows: Rows, times: Array
+) -> None:
     for row, time in zip(rows, times, strict=True):
-        place = data["x"][row], data["y"][row] + reach
-        if np.isfinite(place).all():
+        pose = data["x"][row], data["y"][row], data["theta"][row]
+        if np.isfinite(pose).all():
+            place = pose[0], float(base.at(pose)[:, 1].max())
             _write(axis, f"{time:g} s", place, above=True)
 
 
