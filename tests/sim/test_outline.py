@@ -182,7 +182,7 @@ def test_a_robots_meshes_are_found_and_read(tmp_path, name):
 def test_the_robot_that_ships_is_a_disc_and_sees_from_its_camera(hand):
     robot = robot_of(RobotParameters(), hand, "handle")
     assert robot.outline == disc(0.28)
-    assert robot.camera == (0.12, 0.0, 1.18)
+    assert robot.camera == (0.12, 0.0, 1.17)
     with pytest.raises(InputError, match=r"robot\.camera: no link 'eye'"):
         robot_of(RobotParameters(camera="eye"), hand, "handle")
 
