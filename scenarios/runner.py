@@ -14,6 +14,7 @@ import numpy as np
 
 from cowalk.agents.interfaces import Automation, Belief, Human, Situation, Truth
 from cowalk.agents.registry import AUTOMATIONS
+from cowalk.agents.steering import mirrored, mirrored_observation
 from cowalk.estimation.observers import OBSERVERS
 from cowalk.estimation.smoothing import SMOOTHERS
 from cowalk.sim.env import CowalkEnv
@@ -159,6 +160,7 @@ def _episode(
     total = env.steps_per_episode
     report_every = 1 if watchers else scenario.rates.control
     infos: dict[str, dict[str, Any]] = {}
+    behind = env.plant.steers_from_behind
     actor = "plant"
     try:
         observations, infos = env.reset(seed=int(env_seed.generate_state(1)[0]))
@@ -170,9 +172,13 @@ def _episode(
         for watcher in watchers:
             watcher.start(scenario, env)
         while env.agents:
+            if behind:
+                observations = {s: mirrored_observation(o) for s, o in observations.items()}
             actor = "human"
             force = human.act(observations["human"])
             pair(force, "act", "the force [fx, fy] in N")
+            if behind:
+                force = mirrored(force)
             truth = _of_truth(human.truth())
             actor = "automation"
             twist = automation.act(observations["automation"])
