@@ -8,7 +8,8 @@ from typing import NamedTuple
 
 from cowalk.agents.interfaces import Observation, Situation
 from cowalk.sim.errors import InputError
-from cowalk.sim.motion import Array, Path
+from cowalk.sim.motion import Array
+from cowalk.sim.path import Path
 
 from .elementwise import FLOATS, Elementwise, Value, components, elementwise
 from .route import Route, Triple
