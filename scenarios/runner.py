@@ -243,16 +243,16 @@ def _row(
     clearance: float,
 ) -> tuple[float, ...]:
     """Return a trace row, in the order of `cowalk.scenarios.results.UNITS`."""
-    state, measured = env.plant_state, env.measured_force
+    state, reading = env.plant_state, env.sensor_reading
     force, twist = env.applied
-    fx, fy = (measured.sum(axis=0) / len(measured)).tolist()
+    samples = len(reading.wrench)
     return (
         time_now,
         *state.pose,
         *state.twist,
         *twist,
-        fx,
-        fy,
+        *(reading.force.sum(axis=0) / samples).tolist(),
+        *(reading.wrench.sum(axis=0) / samples).tolist(),
         *force,
         *state.human_pose,
         *truth,
