@@ -7,6 +7,7 @@ import platform
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
+from functools import cache
 from importlib.metadata import version
 from typing import Any
 
@@ -261,6 +262,12 @@ def _row(
     )
 
 
+@cache
+def _versions() -> dict[str, str]:
+    """Return the versions of what a result depends on: read from files, so only once."""
+    return {name: version(name) for name in ("cowalk", *_VERSIONED)}
+
+
 def _result(
     scenario: Scenario, trace: Trace, end: str, error: str | None, wall_time: float
 ) -> RunResult:
@@ -284,9 +291,6 @@ def _result(
         "real_time_factor": simulated / wall_time if wall_time > 0.0 else math.inf,
         "metrics": metrics(columns, period, scenario.world.path) if len(trace) else {},
         "expectations": [asdict(verdict) for verdict in verdicts],
-        "versions": {
-            "python": platform.python_version(),
-            **{name: version(name) for name in ("cowalk", *_VERSIONED)},
-        },
+        "versions": {"python": platform.python_version(), **_versions()},
     }
     return RunResult(scenario, trace, json_ready(summary), verdicts, error)
