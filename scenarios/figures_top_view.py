@@ -186,13 +186,15 @@ def draw_bodies(
         bodies = [
             Polygon(outline.at(pose)) for pose in poses[name].tolist() if np.isfinite(pose).all()
         ]
-        look = {
-            "facecolor": "none",
-            "edgecolor": colour or OUTLINE_COLOURS[name],
-            "lw": 0.7,
-            "alpha": 0.6,
-        }
-        axis.add_collection(PatchCollection(bodies, zorder=3, **look), autolim=False)
+        shapes = PatchCollection(
+            bodies,
+            facecolor="none",
+            edgecolor=colour or OUTLINE_COLOURS[name],
+            lw=0.7,
+            alpha=0.6,
+            zorder=3,
+        )
+        axis.add_collection(shapes, autolim=False)
     base, human = poses["base"][:, :2], poses["human"][:, :2]
     # The arm: which two footprints belong together.
     arms = np.stack((base, human), axis=1)

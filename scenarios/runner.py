@@ -30,7 +30,7 @@ from .loading import load
 from .metrics import metrics
 from .results import RunResult, Trace, json_ready
 from .schema import Scenario
-from .watching import Watcher
+from .watching import Watcher, close_all
 
 _VERSIONED = ("numpy", "scipy", "pybullet", "pettingzoo", "filterpy")
 
@@ -121,7 +121,7 @@ def run(
         end, error = _episode(scenario, env, human, automation, trace, progress, watchers)
         touched = collision(env) if end == "collision" else None
     finally:
-        lost = _close(watchers)
+        lost = close_all(watchers)
         env.close()
     if lost is not None and error is None:
         end, error = "aborted", f"{scenario.name}: {lost}"
@@ -131,17 +131,6 @@ def run(
     if len(trace):
         result.outlines = outlines(env)
     return result
-
-
-def _close(watchers: Sequence[Watcher]) -> str | None:
-    """Close every watcher; return what the last of those that failed says."""
-    said = None
-    for watcher in watchers:
-        try:
-            watcher.close()
-        except SimulationError as failure:
-            said = str(failure)
-    return said
 
 
 def _episode(
