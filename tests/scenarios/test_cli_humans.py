@@ -76,7 +76,8 @@ def test_check_takes_an_agent(cowalk, tmp_path, monkeypatch):
     code, out, _ = cowalk("check", "faulty_models:Faulty")
     assert code == 2
     assert out == (
-        "faulty_models:Faulty: truth returned None: return Truth(wish=..., stubbornness=...)\n"
+        "faulty_models:Faulty: truth returned None: "
+        "return Truth(wish=np.array([v, omega]), stubbornness=np.array([s_v, s_omega]))\n"
     )
     code, out, _ = cowalk("check", "cowalk.agents.humans.steady:SteadyHuman")
     assert (code, out) == (0, "cowalk.agents.humans.steady:SteadyHuman: no fault\n")
