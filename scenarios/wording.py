@@ -63,10 +63,18 @@ def validate(model: type[M], data: Any, at: KeyPath = ()) -> tuple[M | None, lis
         validated = model.model_validate_json(text, strict=True)
     except ValidationError as error:
         for details in error.errors():
+            if _follows(details):
+                continue
             path = _place(details, data)
             message = _message(details, path, at, model)
             found.setdefault((*at, *path), Problem((*at, *path), message))
     return (None if found else validated), list(found.values())
+
+
+def _follows(details: ErrorDetails) -> bool:
+    """Return whether a list is called too short because entries in it are faulty."""
+    short = details["type"] == "too_short"
+    return short and len(details["input"]) >= details["ctx"]["min_length"]
 
 
 def _place(details: ErrorDetails, data: Any) -> KeyPath:

@@ -63,7 +63,8 @@ class GaitRipple(Imperfection):
         """See `Imperfection.unsuited`."""
         if plant == "bullet":
             return (
-                "gait-ripple is for the unicycle plant; on 'bullet' the body makes it, leave it out"
+                "gait-ripple is for the unicycle plant; on 'bullet' the body makes it: leave it "
+                'out, and draw people with plant="bullet" (humans sample --plant bullet)'
             )
         return None
 

@@ -31,6 +31,12 @@ def test_sample_prints_what_the_population_draws(cowalk):
     assert all(person.name in out for person in people)
 
 
+def test_people_for_a_plant_whose_body_walks_are_drawn_without_gait(cowalk):
+    for plant, there in (("unicycle", True), ("bullet", False)):
+        code, out, _ = cowalk("humans", "sample", "determined", "-n", "2", "--plant", plant)
+        assert (code, "gait-ripple" in out) == (0, there)
+
+
 def test_show_draws_a_human(cowalk, tmp_path):
     file = tmp_path / "deep" / "human.png"
     code, out, _ = cowalk("humans", "show", "steady", "--imperfection", "tremor", "--out", file)
@@ -57,6 +63,7 @@ def test_every_imperfection_is_seen_alone(cowalk, tmp_path, name):
         (("show", "steady", "--imperfection", "tremro"), "did you mean 'tremor'?"),
         (("show", "steady", "--set", "plant=bullet"), "only keys of human can be set here"),
         (("show", "steady", "--set", "human.parameters.level=[2,0]"), "level = "),
+        (("sample", "uncertain", "--plant", "bulet"), "did you mean 'bullet'?"),
         (("sample", "nobody"), "unknown population 'nobody'"),
     ],
 )
