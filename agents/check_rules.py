@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from cowalk.sim.motion import Array, Path, TwistBounds
+from cowalk.sim.motion import Array, TwistBounds
 from cowalk.sim.observation import OBSTACLE_COLUMNS, OBSTACLE_ROWS
+from cowalk.sim.path import Path
 
 from .interfaces import Belief, Observation, Situation, Truth
 

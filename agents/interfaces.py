@@ -12,8 +12,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cowalk.sim.motion import Array, Path
+from cowalk.sim.motion import Array
 from cowalk.sim.observation import Observation
+from cowalk.sim.path import Path
 
 __all__ = ["Automation", "Belief", "Bounds", "Human", "Observation", "Situation", "Truth"]
 

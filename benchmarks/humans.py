@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from cowalk.agents import HUMANS, Human, Observation, Situation
-from cowalk.sim.motion import Path as WalkingPath
 from cowalk.sim.motion import TwistBounds
+from cowalk.sim.path import Path as WalkingPath
 
 from .timing import best
 

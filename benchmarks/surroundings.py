@@ -11,7 +11,7 @@ from cowalk.sim.clearance import Clearance
 from cowalk.sim.env import parallel_env
 from cowalk.sim.eyes import Eyes
 from cowalk.sim.footprint import furniture, walls
-from cowalk.sim.motion import Path
+from cowalk.sim.path import Path
 from cowalk.sim.plant import BASE_RADIUS, HUMAN_RADIUS
 from cowalk.sim.world import Corridor, Furniture, Obstacle, Pedestrian, World
 

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from cowalk.agents.interfaces import Human, Situation
-from cowalk.sim.motion import Array, Path, TwistBounds, arc_displacement, compose
+from cowalk.sim.motion import Array, TwistBounds, arc_displacement, compose
 from cowalk.sim.observation import OBSTACLE_COLUMNS, OBSTACLE_ROWS, Observation
+from cowalk.sim.path import Path
 
 SITUATION = Situation(
     Path(((0.0, 0.0), (60.0, 0.0))), 0.8, TwistBounds((0.0, -0.5), (1.2, 0.5)), 0.05

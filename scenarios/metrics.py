@@ -7,7 +7,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from cowalk.estimation.scoring import bias, lag, rmse
-from cowalk.sim.motion import Array, Path
+from cowalk.sim.motion import Array
+from cowalk.sim.path import Path
 
 AGREEMENT = 0.05
 """Difference between human's wish and executed turn rate that counts as agreement, rad/s."""

@@ -12,8 +12,9 @@ from pettingzoo import ParallelEnv
 
 from .errors import InputError, SimulationError
 from .eyes import Eyes
-from .motion import Array, Path, TwistBounds
+from .motion import Array, TwistBounds
 from .observation import OBSTACLE_COLUMNS, OBSTACLE_ROWS, Observation
+from .path import Path
 from .plant import BASE_RADIUS, Plant, PlantState, Rates
 from .plants import PLANTS
 from .reward import Reward

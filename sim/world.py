@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from .errors import InputError
-from .motion import Path
+from .path import Path
 from .pedestrians import Pedestrian
 from .seats import SEATS, check_seats
 

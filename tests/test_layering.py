@@ -8,7 +8,9 @@ import pytest
 
 ROOT = Path(__file__).parent.parent
 # Words that every part speaks: no state, no engine.
-VOCABULARY = {f"cowalk.sim.{name}" for name in ("errors", "motion", "observation", "registry")}
+VOCABULARY = {
+    f"cowalk.sim.{name}" for name in ("errors", "motion", "observation", "path", "registry")
+}
 ALLOWED = {
     "sim": set(),
     "estimation": VOCABULARY,

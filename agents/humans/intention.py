@@ -7,7 +7,8 @@ from typing import NamedTuple
 
 from cowalk.agents.interfaces import Observation, Situation
 from cowalk.sim.errors import InputError
-from cowalk.sim.motion import Array, Path
+from cowalk.sim.motion import Array
+from cowalk.sim.path import Path
 
 from .detour import detour, rows_in_use
 from .elementwise import FLOATS, Elementwise, Value, components, elementwise

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from cowalk.sim.motion import Path
+from cowalk.sim.path import Path
 
 from .elementwise import FLOATS, Elementwise, Value
 

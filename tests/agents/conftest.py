@@ -5,7 +5,8 @@ import pytest
 
 from cowalk.agents import HUMANS
 from cowalk.agents.interfaces import Situation
-from cowalk.sim.motion import Path, TwistBounds
+from cowalk.sim.motion import TwistBounds
+from cowalk.sim.path import Path
 
 
 @pytest.fixture

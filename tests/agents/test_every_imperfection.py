@@ -10,7 +10,8 @@ from cowalk.agents import HUMANS, IMPERFECTIONS
 from cowalk.agents.checks import human_problems
 from cowalk.agents.interfaces import Situation
 from cowalk.sim.env import CowalkEnv
-from cowalk.sim.motion import Path, TwistBounds
+from cowalk.sim.motion import TwistBounds
+from cowalk.sim.path import Path
 from cowalk.sim.plant import Rates
 from cowalk.sim.world import Obstacle, World
 

@@ -17,7 +17,8 @@ from cowalk.agents.imperfections.noise import SignalDependentNoise
 from cowalk.agents.imperfections.perception import PerceptionThreshold
 from cowalk.agents.imperfections.tremor import Tremor
 from cowalk.sim.errors import InputError
-from cowalk.sim.motion import Path, TwistBounds
+from cowalk.sim.motion import TwistBounds
+from cowalk.sim.path import Path
 
 PERIOD = 0.05
 

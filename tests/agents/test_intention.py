@@ -10,7 +10,8 @@ from cowalk.agents.humans.steady import SteadyHuman
 from cowalk.agents.interfaces import Situation
 from cowalk.scenarios.loading import load
 from cowalk.sim.errors import InputError
-from cowalk.sim.motion import Path, TwistBounds, arc_displacement, compose
+from cowalk.sim.motion import TwistBounds, arc_displacement, compose
+from cowalk.sim.path import Path
 
 CORRIDOR = Situation(
     Path(((0.0, 0.0), (30.0, 0.0))), 0.8, TwistBounds((0.0, -0.5), (1.2, 0.5)), 0.05

@@ -14,7 +14,8 @@ from cowalk.agents.automations.stubbornness import StubbornnessAutomation
 from cowalk.agents.automations.utility import negotiated, utility
 from cowalk.agents.interfaces import Situation
 from cowalk.sim.errors import InputError
-from cowalk.sim.motion import Path, TwistBounds, arc_displacement, compose
+from cowalk.sim.motion import TwistBounds, arc_displacement, compose
+from cowalk.sim.path import Path
 
 BOUNDS = TwistBounds((0.0, -0.5), (1.2, 0.5))
 SITUATION = Situation(Path(((0.0, 0.0), (30.0, 0.0))), 0.8, BOUNDS, 0.05)

@@ -14,7 +14,8 @@ from cowalk.scenarios.figures_paper import paper_figure, utility_loss_figure
 from cowalk.scenarios.figures_top_view import window_of
 from cowalk.scenarios.results import UNITS, RunResult, Trace
 from cowalk.scenarios.schema import Scenario
-from cowalk.sim.motion import Path, arc_displacement, compose
+from cowalk.sim.motion import arc_displacement, compose
+from cowalk.sim.path import Path
 from cowalk.sim.world import Corridor, Obstacle, World
 
 PUDDLE = Obstacle(9.0, 0.0, 0.4, seen_by=("human",))

@@ -3,7 +3,7 @@ import pytest
 
 from cowalk.scenarios.metrics import metrics
 from cowalk.scenarios.results import UNITS
-from cowalk.sim.motion import Path
+from cowalk.sim.path import Path
 
 PERIOD = 0.05
 PATH = Path(((0.0, 0.0), (10.0, 0.0)))

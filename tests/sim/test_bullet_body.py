@@ -10,7 +10,7 @@ from cowalk.sim.bullet import BulletPlant
 from cowalk.sim.bullet_bodies import Chain
 from cowalk.sim.bullet_engine import connect, disconnect, engine
 from cowalk.sim.human_body import human_body
-from cowalk.sim.motion import Path
+from cowalk.sim.path import Path
 from cowalk.sim.plant import HUMAN_PLACE, Rates
 from cowalk.sim.world import World
 

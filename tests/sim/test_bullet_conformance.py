@@ -11,7 +11,7 @@ from cowalk.sim.bullet import BulletPlant
 from cowalk.sim.bullet_coupling import COUPLINGS
 from cowalk.sim.drive import DRIVES
 from cowalk.sim.grip import GRIPS
-from cowalk.sim.motion import Path
+from cowalk.sim.path import Path
 from cowalk.sim.plant import Rates
 from cowalk.sim.world import World
 

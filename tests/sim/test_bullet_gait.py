@@ -7,7 +7,7 @@ import pytest
 
 from cowalk.sim.bullet import BulletPlant
 from cowalk.sim.gait import GaitParameters, step_frequency, sway_at
-from cowalk.sim.motion import Path
+from cowalk.sim.path import Path
 from cowalk.sim.plant import Rates
 from cowalk.sim.world import World
 

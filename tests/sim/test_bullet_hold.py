@@ -8,7 +8,7 @@ import pytest
 from cowalk.sim import parallel_env
 from cowalk.sim.bullet import BulletPlant
 from cowalk.sim.errors import InputError
-from cowalk.sim.motion import Path
+from cowalk.sim.path import Path
 from cowalk.sim.plant import Rates
 from cowalk.sim.world import World
 

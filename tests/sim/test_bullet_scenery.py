@@ -6,7 +6,7 @@ import pytest
 from cowalk.sim import bullet_scenery, parallel_env
 from cowalk.sim.bullet_engine import connect, disconnect, engine
 from cowalk.sim.bullet_scenery import SHIRTS, Scenery
-from cowalk.sim.motion import Path
+from cowalk.sim.path import Path
 from cowalk.sim.world import Corridor, Doorway, Furniture, Pedestrian, SideCorridor, World
 
 PATH = Path(((0.0, 0.0), (10.0, 0.0)))

@@ -8,7 +8,7 @@ import pytest
 from cowalk.sim.bullet import BulletPlant
 from cowalk.sim.bullet_engine import connect, disconnect, engine, force_on_parent
 from cowalk.sim.drive import DriveParameters
-from cowalk.sim.motion import Path
+from cowalk.sim.path import Path
 from cowalk.sim.plant import HUMAN_PLACE, Rates
 from cowalk.sim.world import World
 

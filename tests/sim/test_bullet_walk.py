@@ -12,7 +12,7 @@ from cowalk.sim.bullet import BulletPlant
 from cowalk.sim.bullet_engine import connect, engine
 from cowalk.sim.errors import InputError, SimulationError
 from cowalk.sim.human_body import human_body
-from cowalk.sim.motion import Path
+from cowalk.sim.path import Path
 from cowalk.sim.plant import Rates
 from cowalk.sim.world import Corridor, Obstacle, World
 

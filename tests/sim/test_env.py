@@ -7,7 +7,7 @@ from pettingzoo.test import parallel_api_test, parallel_seed_test
 from cowalk.sim import parallel_env
 from cowalk.sim.env import STRAIGHT_CORRIDOR
 from cowalk.sim.errors import InputError, SimulationError
-from cowalk.sim.motion import Path
+from cowalk.sim.path import Path
 from cowalk.sim.plant import Rates
 from cowalk.sim.plants import PLANTS
 from cowalk.sim.sensor import SensorParameters

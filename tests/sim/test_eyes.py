@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from cowalk.sim.eyes import Eyes, covering_discs
 from cowalk.sim.footprint import Rectangle
-from cowalk.sim.motion import Path
 from cowalk.sim.observation import OBSTACLE_ROWS
+from cowalk.sim.path import Path
 from cowalk.sim.sight import Pillar, Screen, behind_pillar, behind_screen
 from cowalk.sim.world import (
     Corridor,

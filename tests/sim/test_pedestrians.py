@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cowalk.sim import parallel_env
-from cowalk.sim.motion import Path
+from cowalk.sim.path import Path
 from cowalk.sim.plants import PLANTS
 from cowalk.sim.world import Pedestrian, World
 

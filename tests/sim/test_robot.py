@@ -10,7 +10,7 @@ from cowalk.sim.bullet_engine import connect, disconnect, engine, load
 from cowalk.sim.errors import InputError
 from cowalk.sim.human_body import human_body
 from cowalk.sim.human_figure import BodyParameters, figure_urdf
-from cowalk.sim.motion import Path
+from cowalk.sim.path import Path
 from cowalk.sim.plant import Rates
 from cowalk.sim.robot import RobotParameters, robot_of
 from cowalk.sim.urdf import lump, mirrored

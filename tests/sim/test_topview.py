@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
 
-from cowalk.sim.motion import Path
+from cowalk.sim.path import Path
 from cowalk.sim.plant import PlantState
 from cowalk.sim.topview import BASE, FLOOR, FORCE, HUMAN, PASSER, PUDDLE, SOLID, WALL, draw
 from cowalk.sim.world import Corridor, Doorway, Furniture, Obstacle, Pedestrian, SideCorridor, World

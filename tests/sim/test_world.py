@@ -10,7 +10,7 @@ from cowalk.sim.bullet_world import EngineClearance
 from cowalk.sim.clearance import Clearance
 from cowalk.sim.errors import InputError
 from cowalk.sim.footprint import walls
-from cowalk.sim.motion import Path
+from cowalk.sim.path import Path
 from cowalk.sim.plants import PLANTS
 from cowalk.sim.world import (
     Corridor,
