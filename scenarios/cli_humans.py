@@ -165,7 +165,7 @@ def table(
     as_json: Json = False,
 ) -> int:
     """Compare every human with every automation, with 95 % bootstrap intervals."""
-    from .human_table import compare_humans, header, row, write_table
+    from .human_table import NOTE, compare_humans, header, row, write_table
     from .loading import load
 
     loaded = load(scenario, [f"plant={plant}"] if plant else [])
@@ -179,9 +179,11 @@ def table(
                 "scenario": loaded.name,
                 "plant": loaded.plant.name,
                 "seeds": seeds,
+                "note": NOTE,
                 "cells": [dataclasses.asdict(cell) for cell in cells],
             }
         )
     else:
         emit_table(f"humans in {loaded.name}", header(), [row(cell) for cell in cells])
+        print(NOTE)
     return PASSED

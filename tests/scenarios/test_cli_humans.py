@@ -2,6 +2,7 @@
 
 import json
 import re
+from functools import partial
 
 import numpy as np
 import pytest
@@ -9,12 +10,14 @@ from matplotlib.image import imread
 
 from cowalk.agents import IMPERFECTIONS
 from cowalk.scenarios.human_answers import answer, fixed_points, push, settled_stubbornness
-from cowalk.scenarios.human_table import compare_humans, estimate, write_table
+from cowalk.scenarios.human_table import compare_humans, estimate, row, write_table
 from cowalk.scenarios.humans import build_human
 from cowalk.scenarios.loading import load
 from cowalk.scenarios.population import load_population
 from cowalk.scenarios.schema import HumanComponent
 from cowalk.sim.errors import InputError
+
+NONE = {"collision": 0, "grip lost": 0}
 
 
 def built(name, **parameters):
@@ -147,6 +150,9 @@ def test_the_table_compares_pairs_and_goes_into_a_document(tmp_path):
         force = cell.metrics["mean force"]
         assert force.low <= force.mean <= force.high
         assert cell.metrics["effort"].mean == pytest.approx(6.0 * force.mean)
+        assert cell.ended_early == NONE
+    steady = cells[0].metrics  # walks 6 s at the 0.8 m/s that both want
+    assert steady["effort a metre"].mean == pytest.approx(steady["effort"].mean / 4.8, rel=0.02)
     assert cells == compare_humans(scenario, 3, jobs=1, **pairs)
     file = tmp_path / "humans.md"
     file.write_text("# Humans\n\n<!-- humans-table -->\nold\n<!-- /humans-table -->\n\nThe end.\n")
@@ -159,6 +165,31 @@ def test_the_table_compares_pairs_and_goes_into_a_document(tmp_path):
         write_table(_without_marks(tmp_path), cells, "puddle", "unicycle", 3)
     with pytest.raises(InputError, match="at least 2 seeds"):
         compare_humans(scenario, 1)
+
+
+def test_the_table_says_which_runs_ended_early(cowalk):
+    pair = {"humans": ("tit-for-tat",), "automations": ("never-yields", "always-yields")}
+    straight, weaving = compare_humans(load("puddle", ["plant=unicycle"]), 2, jobs=1, **pair)
+    assert straight.ended_early == NONE
+    assert weaving.ended_early == NONE | {"collision": 2}
+    assert row(straight)[-1] == "none"
+    assert row(weaving)[-1] == "2 by collision"
+    # They carry on for less long, so that less effort adds up; it is not less by the metre.
+    assert weaving.metrics["effort"].mean < straight.metrics["effort"].mean
+
+
+def test_the_table_is_printed_with_its_note_and_as_json(cowalk, scenario_file, monkeypatch):
+    few = partial(compare_humans, jobs=1, humans=("steady",))
+    monkeypatch.setattr("cowalk.scenarios.human_table.compare_humans", few)
+    file = scenario_file(("duration: 3.0", "duration: 1.0"))
+    code, out, _ = cowalk("humans", "table", file, "-n", "2", "--json")
+    assert code == 0
+    (first, *_) = json.loads(out)["cells"]
+    assert first["ended_early"] == NONE
+    assert set(first["metrics"]) >= {"effort", "effort a metre"}
+    code, out, _ = cowalk("humans", "table", file, "-n", "2")
+    assert "ended early" in out
+    assert "compare that by the metre" in out
 
 
 def _without_marks(folder):
