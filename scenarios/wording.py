@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import math
 import types
 import typing
 from collections.abc import Sequence
@@ -132,6 +133,8 @@ def _instead_of(kind: str, value: Any) -> str:
         try:
             number = int(value) if kind == "int_type" or value.isdecimal() else float(value)
         except ValueError:
+            return ", not text"
+        if kind in ("list_type", "tuple_type") or not math.isfinite(number):
             return ", not text"
         # YAML takes 1e-3 for text, so the number is shown as YAML writes it.
         return f", not text; write {yaml.safe_dump(number).split()[0]} without quotes"

@@ -37,7 +37,8 @@ class ChangeOfMind:
     Raises
     ------
     InputError
-        If both or none of time and place are given, or nothing changes.
+        If both or none of time and place are given, nothing changes, or a time or pace is
+        negative: every fault.
     """
 
     at_time: float | None = None
@@ -46,14 +47,17 @@ class ChangeOfMind:
     path: Path | None = None
 
     def __post_init__(self) -> None:
+        faults = []
         if (self.at_time is None) == (self.at_station is None):
-            raise InputError("give either at_time (s) or at_station (m)")
+            faults.append("give either at_time (s) or at_station (m)")
         if self.pace is None and self.path is None:
-            raise InputError("nothing changes: give pace (m/s), path, or both")
+            faults.append("nothing changes: give pace (m/s), path, or both")
         if self.at_time is not None and not self.at_time >= 0.0:
-            raise InputError(f"at_time = {self.at_time}: must not be negative")
+            faults.append(f"at_time = {self.at_time}: must not be negative")
         if self.pace is not None and not self.pace >= 0.0:
-            raise InputError(f"pace = {self.pace}: must not be negative; 0 is the wish to stop")
+            faults.append(f"pace = {self.pace}: must not be negative; 0 is the wish to stop")
+        if faults:
+            raise InputError("; ".join(faults))
 
 
 @dataclass(frozen=True)

@@ -93,6 +93,13 @@ def test_check_takes_an_agent(cowalk, tmp_path, monkeypatch):
     assert (code, out) == (0, "cowalk.agents.humans.steady:SteadyHuman: no fault\n")
 
 
+def test_an_agent_that_cannot_be_found_is_an_error_like_any_other(cowalk, folder):
+    code, out, error = cowalk("check", "nowhere:Nobody", "my_models:Quiet")
+    assert code == 2
+    assert error == "cowalk: human 'nowhere:Nobody' cannot be imported: No module named 'nowhere'\n"
+    assert out.startswith("my_models:Quiet: ")
+
+
 def test_imperfections_and_populations_are_listed(cowalk):
     for kind, names in (("imperfections", IMPERFECTIONS.names()), ("populations", ["determined"])):
         code, out, _ = cowalk("list", kind, "--json")
