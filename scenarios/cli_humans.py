@@ -134,9 +134,11 @@ def show(
     wanted = imperfection or []
     if not name and not wanted:
         raise InputError("name a human model, an --imperfection, or both; see cowalk list humans")
-    file = out or Path(
-        "runs", "humans", f"{'-'.join([name, *wanted]).strip('-')}.png".replace(":", ".")
-    )
+    file = out or Path("runs", "humans", "-".join([name, *wanted]).strip("-").replace(":", "."))
+    if out is None or not file.suffix:
+        file = file.with_name(f"{file.name}.png")
+    elif file.suffix.lower() != ".png":
+        raise InputError(f"--out {out}: pictures are PNG; write {file.with_suffix('.png')}")
     if name:
         points = show_human(name, wanted, assign or [], file)
         found: dict[str, Any] = {"fixed points": points}
@@ -147,8 +149,9 @@ def show(
         return PASSED
     print(f"picture:  {file}")
     if name:
-        listed = ", ".join(f"{point:.2f}" for point in found["fixed points"]) or "none"
-        print(f"concession = stubbornness in omega at: {listed}")
+        for dimension, points in found["fixed points"].items():
+            listed = ", ".join(f"{point:.2f}" for point in points) or "none"
+            print(f"concession = stubbornness in {dimension} at: {listed}")
     return PASSED
 
 

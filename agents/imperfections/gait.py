@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -46,6 +47,8 @@ class GaitRipple(Imperfection):
     InputError
         If a sway or the stiffness is negative, or the frequency is not in (0, 4] Hz.
     """
+
+    demonstration: ClassVar[tuple[float, float]] = (5.0, 10.0)
 
     step_frequency: float = 1.82
     lateral_sway: float = 0.060
