@@ -22,10 +22,10 @@ def rows_in_use(m: Elementwise, obstacles: Array) -> list[Value]:
         return [row[:4] for row in obstacles.tolist() if row[0]]
     rows = []
     for i in range(obstacles.shape[-2]):
-        row = m.parts(obstacles[..., i, :4])
-        if not m.any(row[0]):
+        (present,) = m.parts(obstacles[..., i, :1])
+        if not m.any(present):
             break  # rows in use come first
-        rows.append(row)
+        rows.append([present, *m.parts(obstacles[..., i, 1:4])])
     return rows
 
 

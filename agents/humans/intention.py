@@ -163,10 +163,12 @@ class Intention:
         self._known = Route(situation.path)
         self._routes = [None if settings.path is None else Route(settings.path)]
         self._route: Value = 0
+        self._needs_world = not self._known.straight or settings.path is not None
         self._changes: list[tuple[ChangeOfMind, int]] = []
         for change in settings.changes:
             if change.path is not None:
                 self._routes.append(Route(change.path))
+                self._needs_world = True
             self._changes.append((change, len(self._routes) - 1))
         self._made: list[Value] = [False] * len(self._changes)
         self._evasion = Movement(0.0)
@@ -192,7 +194,7 @@ class Intention:
         pose = observation["pose"]
         m = elementwise(pose)
         known = station, _, _ = tuple(m.parts(pose))
-        world = tuple(m.parts(observation["pose_world"]))
+        world = tuple(m.parts(observation["pose_world"])) if self._needs_world else known
         if self._changes:
             self._change_mind(m, observation["time"], station)
         obstacles = rows_in_use(m, observation["obstacles"])

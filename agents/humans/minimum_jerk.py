@@ -74,6 +74,9 @@ class Movement:
             8.0 * v + 3.0 * bend - 15.0 * d,
             6.0 * d - 3.0 * v - bend,
         )
+        if isinstance(s, float) and s >= 1.0:  # all at rest: who stays takes part in it
+            self._terms, self._goal, self._share = begun, goal, 0.0
+            return
         self._terms = tuple(m.where(new, b, t) for b, t in zip(begun, self._terms, strict=True))
         self._goal = m.where(new, goal, self._goal)
         self._share = m.where(new, 0.0, s)

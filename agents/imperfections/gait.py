@@ -23,8 +23,8 @@ class GaitRipple(Imperfection):
 
         dF = walking stiffness/2 [fore_aft sin(phi), lateral sin(phi/2)], phi = 2 pi f t + phase.
 
-    The defaults are the medians of 110 measured walking trials; their 5 and 95 % are given
-    below. They make +- 3 N, as much as the paper's pushes. It ceases with the walk:
+    The defaults are the medians of 110 measured walking trials (unpublished); their 5 and 95 %
+    are given below. They make +- 3 N, as much as the paper's pushes. It ceases with the walk:
     ``walking = min(|v|/walking_speed, 1)``. For the unicycle plant; in PyBullet the body
     makes it.
 

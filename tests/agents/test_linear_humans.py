@@ -4,14 +4,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.linalg import solve_continuous_are
 
 from cowalk.agents.humans.crossover import CrossoverHuman
 from cowalk.agents.humans.elementwise import ARRAYS, FLOATS
 from cowalk.agents.humans.game import GameHuman
 from cowalk.agents.humans.impedance import ImpedanceHuman
 from cowalk.agents.humans.intention import IntentionSettings
-from cowalk.agents.humans.lq_game import best_answer, nash_equilibrium
+from cowalk.agents.humans.lq_game import best_answer, nash_equilibrium, regulator
 from cowalk.agents.humans.minimum_jerk import Movement, minimum_jerk
 
 NO_RNG = np.random.default_rng(0)
@@ -156,17 +155,10 @@ gains = st.floats(-2.0, 4.0)
 weights = st.floats(0.1, 5.0)
 
 
-def regulator(partner, errors, effort, steering):
-    """Return the same answer from the general Riccati solver."""
-    plant, push = np.array([[0.0, 1.0], [0.0, 0.0]]), np.array([[0.0], [steering]])
-    left = plant - push @ np.array([partner])
-    riccati = solve_continuous_are(left, push, np.diag(errors), np.array([[effort]]))
-    return (push.T @ riccati)[0] / effort
-
-
 def test_the_regulator_of_a_double_integrator_is_the_textbooks():
-    answer = best_answer(FLOATS, (0.0, 0.0), (1.0, 1.0), 1.0, 1.0)
-    np.testing.assert_allclose(answer, [1.0, np.sqrt(3.0)])
+    textbook = [1.0, np.sqrt(3.0)]
+    np.testing.assert_allclose(best_answer(FLOATS, (0.0, 0.0), (1.0, 1.0), 1.0, 1.0), textbook)
+    np.testing.assert_allclose(regulator((0.0, 0.0), (1.0, 1.0), 1.0, 1.0), textbook)
 
 
 @settings(max_examples=40, deadline=None)
@@ -181,8 +173,18 @@ def test_the_closed_form_solves_the_riccati_equation(l1, l2, q1, q2, r, steering
 @pytest.mark.parametrize("efforts", [(1.0, 1.0), (1.0, 3.0), (0.2, 1.0)])
 def test_in_equilibrium_each_plays_the_regulator_of_what_the_other_leaves(efforts):
     own, other = nash_equilibrium((1.5, 0.8), efforts, 2.0)
-    np.testing.assert_allclose(own, regulator(other, (1.5, 0.8), efforts[0], 2.0), rtol=1e-6)
-    np.testing.assert_allclose(other, regulator(own, (1.5, 0.8), efforts[1], 2.0), rtol=1e-6)
+    for player, partner, effort in ((own, other, efforts[0]), (other, own, efforts[1])):
+        answer = best_answer(FLOATS, partner, (1.5, 0.8), effort, 2.0)
+        np.testing.assert_allclose(player, answer, rtol=1e-6)
+
+
+def test_a_game_human_begins_in_the_equilibrium(situation, observe):
+    human = GameHuman(effort_weight=2.0, partner_effort_weight=0.5)
+    human.reset(NO_RNG, situation)
+    own, other = nash_equilibrium((1.0, 1.0), (2.0, 0.5), 2.0)
+    assert human.partner_gains() == (other, other)
+    human.act(observe())
+    assert human.slope(1) * 0.5 / 7.5 == pytest.approx(own[1], rel=1e-6)
 
 
 def test_equal_players_share_the_work_as_the_symmetric_riccati_equation_says():
