@@ -14,6 +14,7 @@ import numpy as np
 
 from cowalk.agents.interfaces import Automation, Belief, Human, Situation, Truth
 from cowalk.agents.registry import AUTOMATIONS
+from cowalk.agents.steering import mirrored, mirrored_observation
 from cowalk.estimation.observers import OBSERVERS
 from cowalk.estimation.smoothing import SMOOTHERS
 from cowalk.sim.env import CowalkEnv
@@ -159,6 +160,7 @@ def _episode(
     total = env.steps_per_episode
     report_every = 1 if watchers else scenario.rates.control
     infos: dict[str, dict[str, Any]] = {}
+    behind = env.plant.steers_from_behind
     actor = "plant"
     try:
         observations, infos = env.reset(seed=int(env_seed.generate_state(1)[0]))
@@ -170,9 +172,13 @@ def _episode(
         for watcher in watchers:
             watcher.start(scenario, env)
         while env.agents:
+            if behind:
+                observations = {s: mirrored_observation(o) for s, o in observations.items()}
             actor = "human"
             force = human.act(observations["human"])
             pair(force, "act", "the force [fx, fy] in N")
+            if behind:
+                force = mirrored(force)
             truth = _of_truth(human.truth())
             actor = "automation"
             twist = automation.act(observations["automation"])
@@ -237,16 +243,16 @@ def _row(
     clearance: float,
 ) -> tuple[float, ...]:
     """Return a trace row, in the order of `cowalk.scenarios.results.UNITS`."""
-    state, measured = env.plant_state, env.measured_force
+    state, reading = env.plant_state, env.sensor_reading
     force, twist = env.applied
-    fx, fy = (measured.sum(axis=0) / len(measured)).tolist()
+    samples = len(reading.wrench)
     return (
         time_now,
         *state.pose,
         *state.twist,
         *twist,
-        fx,
-        fy,
+        *(reading.force.sum(axis=0) / samples).tolist(),
+        *(reading.wrench.sum(axis=0) / samples).tolist(),
         *force,
         *state.human_pose,
         *truth,

@@ -54,7 +54,7 @@ class BulletPlant:
     coupling : CouplingParameters
     robot : RobotParameters
     mount : SensorMount
-        Where the force-torque sensor sits (`PlantState.wrench_on_sensor`).
+        Where the force-torque sensor sits: the frame in which it reads.
     gui : bool
         Show the run in a window, at no more than real time; `reset` opens it.
 
@@ -215,7 +215,6 @@ class BulletPlant:
             pose=(x, y, yaw),
             twist=(math.cos(yaw) * vx + math.sin(yaw) * vy, rate),
             human_pose=(human[0], human[1], human[2]),
-            force_on_base=wrench[:, :2],
             wrench_on_base=wrench,
             mount=self._mount,
             grip_held=not lost,
@@ -233,6 +232,11 @@ class BulletPlant:
     def bare_step(self) -> None:
         """Step the engine alone, nothing driven or read: what a benchmark compares with."""
         engine.stepSimulation(self._pair.client)
+
+    @property
+    def steers_from_behind(self) -> bool:
+        """See `Plant.steers_from_behind`: the stretcher is held at its tail."""
+        return self._pair.load is not None
 
     @property
     def handle(self) -> tuple[float, float, float]:

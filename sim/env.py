@@ -41,8 +41,8 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
     The human's action is the intended hand force on the base ``[fx, fy]``, base axes, N; the
     automation's is the twist to execute ``[v, omega]``, m/s and rad/s. Actions beyond the
     action space are clipped to it. Both seats perceive the same dict of named boxes: ``twist``
-    (2,), ``force`` (samples, 2), ``force_valid`` (samples,), ``pose`` (3,) relative to the path,
-    ``pose_world`` (3,), ``obstacles`` (8, 6) and ``time`` (1,), as
+    (2,), ``force`` (samples, 2), ``wrench`` (samples, 6), ``force_valid`` (samples,), ``pose``
+    (3,) relative to the path, ``pose_world`` (3,), ``obstacles`` (8, 6) and ``time`` (1,), as
     `cowalk.sim.observation.Observation` explains.
     Spaces do not depend on who sits in the seats.
 
@@ -120,6 +120,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
             {
                 "twist": _box(2),
                 "force": _box(rates.samples, 2),
+                "wrench": _box(rates.samples, 6),
                 "force_valid": _box(rates.samples),
                 "pose": _box(3),
                 "pose_world": _box(3),
@@ -179,7 +180,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self._step_count = 0
         self._sensor.reset(sensor_rng)
         self._state = self._plant.reset(self.world, plant_rng)
-        self._reading = self._sensor.measure(self._state.force_on_base)
+        self._reading = self._sensor.measure(self._state.wrench_on_base, self._state.mount)
         state = self._state
         clearance, _ = self._distances(self._time, state.pose, state.human_pose)
         self._info = {"clearance": clearance} | dict.fromkeys(_ENDS, False)
@@ -213,7 +214,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self.applied = force, twist
         state = self._state = self._plant.step(twist, force)
         self._step_count += 1
-        self._reading = self._sensor.measure(state.force_on_base)
+        self._reading = self._sensor.measure(state.wrench_on_base, state.mount)
         clearance, collision = self._distances(self._time, state.pose, state.human_pose)
         observations = self._observations()
         goal = self._relative[0] >= self.world.path.length
@@ -249,12 +250,12 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
 
     @property
     def measured_force(self) -> Array:
-        """What the sensor read in the last control step, N, base axes, shape (samples, 2)."""
+        """Planar force that the sensor read in the last step, N, base axes, shape (samples, 2)."""
         return self._reading.force
 
     @property
     def sensor_reading(self) -> Reading:
-        """The same with its flags: samples lost on the way, samples at the end of the range."""
+        """All that it read, in its own axes too, with flags for what was lost or out of range."""
         return self._reading
 
     def render(self) -> np.ndarray | None:
@@ -297,11 +298,13 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self._relative = self.world.path.relative(*state.pose)
         twist, time = np.array(state.twist), np.array([self._time])
         force = {"human": state.force_on_base, "automation": self._reading.force}
+        wrench = {"human": state.wrench_on_base, "automation": self._reading.wrench}
         valid = {"human": self._felt, "automation": self._reading.valid}
         return {
             seat: Observation(
                 twist=twist.copy(),
                 force=force[seat].copy(),
+                wrench=wrench[seat].copy(),
                 force_valid=valid[seat].astype(float),
                 pose=np.array(self._relative),
                 pose_world=np.array(state.pose),

@@ -24,6 +24,8 @@ class UnicyclePlant:
     rates : Rates
     """
 
+    steers_from_behind = False
+
     def __init__(self, rates: Rates) -> None:
         self._period = rates.period
         self._samples = rates.samples
@@ -74,8 +76,8 @@ class UnicyclePlant:
         x, y, theta = self._pose
         cos, sin = math.cos(theta), math.sin(theta)
         place_x, place_y, place_theta = HUMAN_PLACE
-        force = np.empty((self._samples, 2))
-        force[:, 0], force[:, 1] = self._hand_force
+        wrench = np.zeros((self._samples, 6))  # there is no body to have a torque
+        wrench[:, 0], wrench[:, 1] = self._hand_force
         return PlantState(
             pose=self._pose,
             twist=self._twist,
@@ -84,7 +86,7 @@ class UnicyclePlant:
                 y + sin * place_x + cos * place_y,
                 theta + place_theta,
             ),
-            force_on_base=force,
+            wrench_on_base=wrench,
             time=self._steps * self._period,
         )
 

@@ -20,7 +20,8 @@ WORLD = World(
 
 
 def state(force=(0.0, 0.0), theta=0.0):
-    return PlantState((1.0, 0.0, theta), (0.8, 0.0), (0.9, -0.65, theta), np.array([force]))
+    wrench = np.array([[*force, 0.0, 0.0, 0.0, 0.0]])
+    return PlantState((1.0, 0.0, theta), (0.8, 0.0), (0.9, -0.65, theta), wrench)
 
 
 def where(picture, colour):
