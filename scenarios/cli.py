@@ -268,7 +268,7 @@ def check(
     return code
 
 
-cli_humans.register(app)
+cli_humans.register(app, lambda as_json: list_parts(Kind.HUMANS, as_json))
 cli_studies.register(app)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -13,9 +14,15 @@ from .cli_output import PASSED, emit_json, emit_table, progress_bar
 Json = Annotated[bool, typer.Option("--json", help="JSON alone on standard output.")]
 
 
-def register(app: typer.Typer) -> None:
-    """Add these commands to the command line."""
+def register(app: typer.Typer, list_models: Callable[[bool], int]) -> None:
+    """Add these commands to the command line; ``list_models`` prints the models' names."""
     humans = typer.Typer(rich_markup_mode=None, help="Look at human models and populations.")
+
+    @humans.command("list")
+    def list_humans(as_json: Json = False) -> int:
+        """List the human models; cowalk list also has imperfections and populations."""
+        return list_models(as_json)
+
     humans.command(
         epilog=(
             "\b\nExamples:\n"

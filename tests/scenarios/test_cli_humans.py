@@ -100,6 +100,12 @@ def test_an_agent_that_cannot_be_found_is_an_error_like_any_other(cowalk, folder
     assert out.startswith("my_models:Quiet: ")
 
 
+def test_humans_list_is_list_humans(cowalk):
+    for arguments in ((), ("--json",)):
+        assert cowalk("humans", "list", *arguments) == cowalk("list", "humans", *arguments)
+    assert "tit-for-tat" in cowalk("humans", "list")[1]
+
+
 def test_imperfections_and_populations_are_listed(cowalk):
     for kind, names in (("imperfections", IMPERFECTIONS.names()), ("populations", ["determined"])):
         code, out, _ = cowalk("list", kind, "--json")
