@@ -175,10 +175,12 @@ def table(
     as_json: Json = False,
 ) -> int:
     """Compare every human with every automation, with 95 % bootstrap intervals."""
-    from .human_table import NOTE, compare_humans, header, row, write_table
+    from .human_table import NOTE, compare_humans, header, marked_document, row, write_table
     from .loading import load
 
     loaded = load(scenario, [f"plant={plant}"] if plant else [])
+    if write is not None:
+        marked_document(write)  # before the minutes that the runs take
     with progress_bar("comparing") as progress:
         cells = compare_humans(loaded, seeds, progress=progress)
     if write is not None:

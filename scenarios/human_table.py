@@ -238,7 +238,7 @@ def write_table(file: Path, cells: Sequence[Cell], scenario: str, plant: str, se
     Raises
     ------
     InputError
-        If the file cannot be read or has no such marks.
+        See `marked_document`.
     """
     from rich.box import MARKDOWN
     from rich.console import Console
@@ -256,15 +256,29 @@ def write_table(file: Path, cells: Sequence[Cell], scenario: str, plant: str, se
         f"Scenario `{scenario}` on the {plant} plant, {seeds} seeds; mean and 95 % bootstrap "
         f"interval. {NOTE}"
     )
+    document = marked_document(file)
+    filled = _PLACE.sub(lambda found: f"{found[1]}{caption}\n\n{lines}\n{found[2]}", document)
+    file.write_text(filled, encoding="utf-8")
+
+
+_PLACE = re.compile(rf"(<!-- {MARK} -->\n).*?(<!-- /{MARK} -->)", re.DOTALL)
+
+
+def marked_document(file: Path) -> str:
+    """Return the text of a document with a place for the table.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read or has no such marks.
+    """
     try:
         document = file.read_text(encoding="utf-8")
     except OSError as error:
         raise InputError(f"--write {file}: cannot be read ({error.strerror})") from error
-    pattern = re.compile(rf"(<!-- {MARK} -->\n).*?(<!-- /{MARK} -->)", re.DOTALL)
-    if not pattern.search(document):
+    if not _PLACE.search(document):
         raise InputError(
             f"--write {file}: no place for the table; add the lines <!-- {MARK} --> and "
             f"<!-- /{MARK} -->"
         )
-    filled = pattern.sub(lambda found: f"{found[1]}{caption}\n\n{lines}\n{found[2]}", document)
-    file.write_text(filled, encoding="utf-8")
+    return document

@@ -48,6 +48,17 @@ def test_show_draws_a_human(cowalk, tmp_path):
     assert imread(file).shape == (868, 1400, 4)
 
 
+def test_show_says_where_its_picture_is_and_where_both_dimensions_settle(cowalk, folder):
+    level = "human.parameters.level=[0.2,0.6]"
+    code, out, _ = cowalk("humans", "show", "steady", "--set", level, "--out", "mine", "--json")
+    assert code == 0
+    found = json.loads(out)
+    assert found["picture"] == "mine.png"
+    assert (folder / "mine.png").is_file()
+    expected = {"v": [pytest.approx(0.2)], "omega": [pytest.approx(0.6)]}
+    assert found["fixed points"] == expected
+
+
 @pytest.mark.parametrize("name", IMPERFECTIONS.names())
 def test_every_imperfection_is_seen_alone(cowalk, tmp_path, name):
     file = tmp_path / "alone.png"
@@ -62,11 +73,13 @@ def test_every_imperfection_is_seen_alone(cowalk, tmp_path, name):
     ("arguments", "message"),
     [
         (("show",), "name a human model, an --imperfection, or both"),
+        (("show", "steady", "--out", "x.pdf"), "pictures are PNG; write x.png"),
         (("show", "stedy"), "unknown human 'stedy'; did you mean 'steady'?"),
         (("show", "steady", "--imperfection", "tremro"), "did you mean 'tremor'?"),
         (("show", "steady", "--set", "plant=bullet"), "only keys of human can be set here"),
         (("show", "steady", "--set", "human.parameters.level=[2,0]"), "level = "),
         (("sample", "uncertain", "--plant", "bulet"), "did you mean 'bullet'?"),
+        (("table", "--write", "nowhere.md"), "--write nowhere.md: cannot be read"),
         (("sample", "nobody"), "unknown population 'nobody'"),
     ],
 )
