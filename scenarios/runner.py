@@ -7,6 +7,7 @@ import platform
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
+from functools import cache
 from importlib.metadata import version
 from typing import Any
 
@@ -14,6 +15,7 @@ import numpy as np
 
 from cowalk.agents.interfaces import Automation, Belief, Human, Situation, Truth
 from cowalk.agents.registry import AUTOMATIONS
+from cowalk.agents.steering import mirrored, mirrored_observation
 from cowalk.estimation.observers import OBSERVERS
 from cowalk.estimation.smoothing import SMOOTHERS
 from cowalk.sim.env import CowalkEnv
@@ -159,6 +161,7 @@ def _episode(
     total = env.steps_per_episode
     report_every = 1 if watchers else scenario.rates.control
     infos: dict[str, dict[str, Any]] = {}
+    behind = env.plant.steers_from_behind
     actor = "plant"
     try:
         observations, infos = env.reset(seed=int(env_seed.generate_state(1)[0]))
@@ -170,9 +173,13 @@ def _episode(
         for watcher in watchers:
             watcher.start(scenario, env)
         while env.agents:
+            if behind:
+                observations = {s: mirrored_observation(o) for s, o in observations.items()}
             actor = "human"
             force = human.act(observations["human"])
             pair(force, "act", "the force [fx, fy] in N")
+            if behind:
+                force = mirrored(force)
             truth = _of_truth(human.truth())
             actor = "automation"
             twist = automation.act(observations["automation"])
@@ -255,6 +262,12 @@ def _row(
     )
 
 
+@cache
+def _versions() -> dict[str, str]:
+    """Return the versions of what a result depends on: read from files, so only once."""
+    return {name: version(name) for name in ("cowalk", *_VERSIONED)}
+
+
 def _result(
     scenario: Scenario, trace: Trace, end: str, error: str | None, wall_time: float
 ) -> RunResult:
@@ -278,9 +291,6 @@ def _result(
         "real_time_factor": simulated / wall_time if wall_time > 0.0 else math.inf,
         "metrics": metrics(columns, period, scenario.world.path) if len(trace) else {},
         "expectations": [asdict(verdict) for verdict in verdicts],
-        "versions": {
-            "python": platform.python_version(),
-            **{name: version(name) for name in ("cowalk", *_VERSIONED)},
-        },
+        "versions": {"python": platform.python_version(), **_versions()},
     }
     return RunResult(scenario, trace, json_ready(summary), verdicts, error)

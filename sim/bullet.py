@@ -234,6 +234,11 @@ class BulletPlant:
         engine.stepSimulation(self._pair.client)
 
     @property
+    def steers_from_behind(self) -> bool:
+        """See `Plant.steers_from_behind`: the stretcher is held at its tail."""
+        return self._pair.load is not None
+
+    @property
     def handle(self) -> tuple[float, float, float]:
         """Where the handle is, base axes, m."""
         return self._pair.look.clamp

@@ -54,6 +54,8 @@ class Load:
     base : Base
     handle : (x, y, z)
         Where it is clamped, base axes, m.
+    rises : bool
+        Whether its height is the base's: of a base that stands on a floor.
     """
 
     def __init__(
@@ -62,13 +64,14 @@ class Load:
         client: int,
         base: Base,
         handle: Vector,
+        rises: bool = False,
     ) -> None:
         p = parameters
         self._client = client
         self.handle = handle
         inertia = p.mass * (p.length**2 + p.width**2) / 12.0
         rigid = Rigid(p.mass, (-p.length / 2.0, 0.0, handle[2]), inertia, {})
-        self.slab = Slab(client, "load", rigid)
+        self.slab = Slab(client, "load", rigid, rises)
         self._clamp = engine.createConstraint(
             base.body,
             base.link,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from .anthropometry import SHOULDER_HEIGHT, BodyParameters, yaw_inertia
 from .arm import ELBOW_RANGE, SHOULDER_RANGE, Arm, arm_of
-from .urdf import Vector, hinge, link, planar
+from .urdf import Vector, hinge, link, planar, slider
 
 BESIDE = (0.25, 0.15)
 """Where a single hand rests, ahead of its shoulder and outwards, m: at 1.75 m and a handle at
@@ -55,8 +55,15 @@ class HumanBody:
         arms = (f"{joint}_{side}" for side in self.parameters.sides for joint in ARM_JOINTS)
         return ("x", "y", "yaw", *arms)
 
-    def urdf(self) -> str:
-        """Return the body as a URDF without pictures: nothing in it but what moves."""
+    def urdf(self, hands_rise: bool = False) -> str:
+        """Return the body as a URDF without pictures: nothing in it but what moves.
+
+        Parameters
+        ----------
+        hands_rise : bool
+            Whether a hand follows its handle up and down (link ``hand_left``, joint
+            ``lift_left``), so that it neither carries nor holds down what stands on a floor.
+        """
         body = self.parameters
         held = sum(arm.upper.mass + arm.fore.mass for arm in self.arms)
         parts = [link("trunk", body.mass - held, (0.0, 0.0, 0.57 * body.height), yaw_inertia(body))]
@@ -78,10 +85,18 @@ class HumanBody:
             parts.append(
                 hinge(f"elbow_{side}", f"upper_arm_{side}", f"forearm_{side}", elbow, limits[1])
             )
+            if hands_rise:
+                tip = (fore.length, 0.0, -fore.drop)
+                parts.append(link(f"hand_{side}", WEIGHTLESS, (0.0, 0.0, 0.0), WEIGHTLESS))
+                parts.append(
+                    slider(f"lift_{side}", f"forearm_{side}", f"hand_{side}", "0 0 1", tip)
+                )
         return planar("human", "trunk", "".join(parts))
 
 
 ARM_JOINTS = ("shoulder", "elbow")
+WEIGHTLESS = 1e-3
+"""Mass (kg) and inertia (kg m^2) of what the engine needs to have some: it weighs 0.01 N."""
 
 
 def human_body(parameters: BodyParameters, handles: tuple[Vector, ...]) -> HumanBody:

@@ -118,6 +118,11 @@ class PlantState:
 class Plant(Protocol):
     """What `cowalk.sim.env` steps. Built with `Rates`; holds no random state of its own."""
 
+    @property
+    def steers_from_behind(self) -> bool:
+        """Whether a push to the left asks for a turn to the right, as at the tail of a trailer."""
+        ...
+
     def reset(self, world: World, rng: np.random.Generator) -> PlantState:
         """Put base and human at the world's start, at rest, and return the state there."""
         ...

@@ -24,6 +24,8 @@ class UnicyclePlant:
     rates : Rates
     """
 
+    steers_from_behind = False
+
     def __init__(self, rates: Rates) -> None:
         self._period = rates.period
         self._samples = rates.samples

@@ -192,21 +192,35 @@ def hinge(
     )
 
 
-def planar(name: str, root_link: str, parts: str) -> str:
+def slider(name: str, parent: str, child: str, axis: str, place: Vector = (0.0, 0.0, 0.0)) -> str:
+    """Return a joint that slides freely along an axis."""
+    x, y, z = place
+    return (
+        f'<joint name="{name}" type="prismatic"><parent link="{parent}"/><child link="{child}"/>'
+        f'<origin xyz="{x!r} {y!r} {z!r}"/><axis xyz="{axis}"/>'
+        '<limit lower="1" upper="-1" effort="1e9" velocity="1e9"/></joint>'
+    )
+
+
+def planar(name: str, root_link: str, parts: str, rises: bool = False) -> str:
     """Return a robot whose ``root_link``, among ``parts``, slides and turns on the floor.
 
     The engine's planar joint cannot be driven from Python; a chain x, y, yaw can.
+
+    Parameters
+    ----------
+    name, root_link, parts : str
+    rises : bool
+        Whether its height is free as well (joint ``z``).
     """
-    slide = (
-        '<joint name="{0}" type="prismatic"><parent link="{1}"/><child link="{2}"/>'
-        '<axis xyz="{3}"/><limit lower="1" upper="-1" effort="1e9" velocity="1e9"/></joint>'
-    )
+    lift = LOCKED.format("slide_z") + slider("z", "ground", "slide_z", "0 0 1") if rises else ""
     return "".join(
         (
             f'<robot name="{name}">',
             *(LOCKED.format(part) for part in ("ground", "slide_x", "slide_y")),
-            slide.format("x", "ground", "slide_x", "1 0 0"),
-            slide.format("y", "slide_x", "slide_y", "0 1 0"),
+            lift,
+            slider("x", "slide_z" if rises else "ground", "slide_x", "1 0 0"),
+            slider("y", "slide_x", "slide_y", "0 1 0"),
             hinge("yaw", "slide_y", root_link),
             parts,
             "</robot>",
