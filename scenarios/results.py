@@ -12,6 +12,8 @@ import numpy as np
 
 from cowalk.sim.errors import InputError
 from cowalk.sim.motion import Array
+from cowalk.sim.outline import Outline
+from cowalk.sim.plant import PLAIN_BODIES
 
 if TYPE_CHECKING:
     from .expectations import Verdict
@@ -176,6 +178,8 @@ class RunResult:
         One for each expectation of the scenario.
     error : str or None
         Why the run ended before its time, if it did.
+    outlines : dict of str to Outline
+        Of the bodies, for pictures; a load's in base axes, as it was held at the end.
     """
 
     scenario: Scenario
@@ -183,6 +187,7 @@ class RunResult:
     summary: dict[str, Any]
     verdicts: list[Verdict] = field(default_factory=list)
     error: str | None = None
+    outlines: dict[str, Outline] = field(default_factory=lambda: PLAIN_BODIES.outlines)
 
     @property
     def passed(self) -> bool:

@@ -20,6 +20,8 @@ from cowalk.estimation.observers import OBSERVERS
 from cowalk.estimation.smoothing import SMOOTHERS
 from cowalk.sim.env import CowalkEnv
 from cowalk.sim.errors import InputError, SimulationError
+from cowalk.sim.motion import world_to_base
+from cowalk.sim.outline import Outline
 
 from .answers import AgentError, of_kind, pair
 from .building import build
@@ -124,7 +126,20 @@ def run(
     if lost is not None and error is None:
         end, error = "aborted", f"{scenario.name}: {lost}"
     wall_time = time.perf_counter() - started
-    return _result(scenario, trace, end, error, wall_time)
+    result = _result(scenario, trace, end, error, wall_time)
+    if len(trace):
+        result.outlines = _outlines(env)
+    return result
+
+
+def _outlines(env: CowalkEnv) -> dict[str, Outline]:
+    """Return the outlines of a plant's bodies, that of a load in base axes."""
+    outlines, state = dict(env.plant.bodies.outlines), env.plant_state
+    if state.load_pose is not None:
+        x, y = world_to_base(state.pose, state.load_pose[:2]).tolist()
+        turn = state.load_pose[2] - state.pose[2]
+        outlines["load"] = outlines["load"].moved((x, y, turn))
+    return outlines
 
 
 def _close(watchers: Sequence[Watcher]) -> str | None:

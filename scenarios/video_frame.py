@@ -98,13 +98,13 @@ def draw_band(
     _fill(image, camera.project(floor), colour, opacity)
 
 
-def draw_shadow(image: Image.Image, camera: Camera, place: Array, radius: float) -> None:
-    """Darken the floor under a body: place (x, y, ...) in m, world axes."""
-    angles = np.linspace(0.0, 2.0 * math.pi, 40, endpoint=False)
-    circle = np.stack((np.cos(angles), np.sin(angles), np.zeros(40)), axis=-1)
-    middle = np.array([place[0], place[1], 0.0])
+def draw_shadow(image: Image.Image, camera: Camera, outline: Array) -> None:
+    """Darken the floor under a body: its outline, shape (n, 2), m, world axes."""
+    corners = np.concatenate((outline, np.zeros((len(outline), 1))), axis=-1)
+    middle = (corners.min(axis=0) + corners.max(axis=0)) / 2.0
     for share in np.linspace(1.3, 0.7, 7):
-        _fill(image, camera.project(middle + circle * radius * share), "#101418", 0.055)
+        floor = middle + share * (corners - middle)
+        _fill(image, camera.project(floor), "#101418", 0.055)
 
 
 class Frame:

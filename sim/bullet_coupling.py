@@ -8,9 +8,12 @@ from .bullet_bodies import Base, Slab
 from .bullet_engine import engine
 from .bullet_grip import Wrench
 from .errors import InputError
+from .outline import Outline, rectangle
 from .urdf import Rigid, Vector
 
 COUPLINGS = ("handle", "stretcher")
+THICKNESS = 0.02
+"""Of a load, m."""
 
 
 @dataclass(frozen=True)
@@ -42,6 +45,12 @@ class CouplingParameters:
         for name in ("mass", "length", "width"):
             if not getattr(self, name) > 0.0:
                 raise InputError(f"{name} = {getattr(self, name)}: must be above 0")
+
+
+def load_outline(parameters: CouplingParameters, height: float) -> Outline:
+    """Return what a load clamped at a height (m) occupies: its origin is the clamp."""
+    half = parameters.width / 2.0
+    return rectangle(-parameters.length, 0.0, -half, half, underside=height - THICKNESS / 2.0)
 
 
 class Load:

@@ -7,7 +7,7 @@ from typing import Any
 
 from .anthropometry import BodyParameters
 from .bullet_bodies import Base, Chain, SlipBase, State
-from .bullet_coupling import CouplingParameters, Load
+from .bullet_coupling import CouplingParameters, Load, load_outline
 from .bullet_engine import connect, disconnect, engine
 from .bullet_grip import Hands
 from .bullet_view import Look
@@ -15,7 +15,8 @@ from .bullet_wheels import WheelBase
 from .drive import DriveParameters
 from .errors import InputError
 from .grip import GripParameters
-from .human_body import human_body
+from .human_body import arm_outlines, eye, human_body, trunk_outline
+from .outline import Bodies
 from .robot import RobotParameters, robot_of, two_hands
 from .urdf import Vector
 
@@ -68,6 +69,12 @@ class Pair:
         self.place = (x + shift[0], y + shift[1], yaw)
         """Where the trunk walks, base axes: m, m, rad."""
         self.look = Look(robot.urdf, self.body, coupling if carried else None, robot.handle)
+
+        outlines = {"base": robot.outline, "human": trunk_outline(parameters.body)}
+        if carried:
+            outlines["load"] = load_outline(coupling, robot.handle[2])
+        seats = {"automation": robot.camera, "human": eye(parameters.body)}
+        self.bodies = Bodies(outlines, seats, arm_outlines(self.body, handles))
 
         # Nothing is refused from here on, so that no client is left behind.
         self.client = client = connect()

@@ -15,12 +15,13 @@ from .eyes import Eyes
 from .motion import Array, TwistBounds
 from .observation import OBSTACLE_COLUMNS, OBSTACLE_ROWS, Observation
 from .path import Path
-from .plant import BASE_RADIUS, Plant, PlantState, Rates
+from .plant import Plant, PlantState, Rates
 from .plants import PLANTS
 from .reward import Reward
 from .seats import SEATS
 from .sensor import ForceSensor, Reading
 from .sensor_parameters import SensorParameters
+from .start import blocked_start
 from .world import Corridor, World
 
 STRAIGHT_CORRIDOR = World(path=Path(((0.0, 0.0), (20.0, 0.0))), corridor=Corridor(width=3.0))
@@ -133,9 +134,10 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
             seat: tuple(zip(box.low.tolist(), box.high.tolist(), strict=True))
             for seat, box in self.action_spaces.items()
         }
+        bodies = self._plant.bodies
         self._distances = self._plant.distances(world)
         self._reward = Reward(pace, rates.period)
-        self._eyes = {seat: Eyes(world, seat, BASE_RADIUS) for seat in SEATS}
+        self._eyes = {seat: Eyes(world, seat, bodies.eyes[seat]) for seat in SEATS}
         self._sensor = ForceSensor(sensor, rates.sensor)
         self._felt = np.ones(rates.samples)
         self._generator = np.random.default_rng()
@@ -172,6 +174,11 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
             Seed of all randomness of the environment; without one it goes on from the last.
         options : dict, optional
             Not used.
+
+        Raises
+        ------
+        InputError
+            If a body starts in touch with something solid.
         """
         if seed is not None:
             self._generator = np.random.default_rng(seed)
@@ -182,7 +189,11 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self._state = self._plant.reset(self.world, plant_rng)
         self._reading = self._sensor.measure(self._state.wrench_on_base, self._state.mount)
         state = self._state
-        clearance, _ = self._distances(self._time, state.pose, state.human_pose)
+        clearance, touching = self._distances(self._time, *state.poses)
+        if touching:
+            plant = self._plant
+            why = blocked_start(self.world, plant.bodies, state.poses, plant.distances)
+            raise InputError(why)
         self._info = {"clearance": clearance} | dict.fromkeys(_ENDS, False)
         return self._observations(), {seat: dict(self._info) for seat in SEATS}
 
@@ -215,7 +226,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         state = self._state = self._plant.step(twist, force)
         self._step_count += 1
         self._reading = self._sensor.measure(state.wrench_on_base, state.mount)
-        clearance, collision = self._distances(self._time, state.pose, state.human_pose)
+        clearance, collision = self._distances(self._time, *state.poses)
         observations = self._observations()
         goal = self._relative[0] >= self.world.path.length
         ends = zip(_ENDS, (goal, collision, not state.grip_held), strict=True)

@@ -5,14 +5,24 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from .anthropometry import SHOULDER_HEIGHT, BodyParameters, yaw_inertia
+from .anthropometry import (
+    EYE_HEIGHT,
+    SHOULDER_HEIGHT,
+    BodyParameters,
+    trunk_breadth,
+    trunk_depth,
+    yaw_inertia,
+)
 from .arm import ELBOW_RANGE, SHOULDER_RANGE, Arm, arm_of
+from .outline import Outline, across, bar
 from .urdf import Vector, hinge, link, planar, slider
 
 BESIDE = (0.25, 0.15)
 """Where a single hand rests, ahead of its shoulder and outwards, m: at 1.75 m and a handle at
 `USUAL_HEIGHT`; others bend their elbow as much (inferred: led by hand)."""
 USUAL_HEIGHT = 1.04
+ARM_RADIUS = 0.04
+"""m (inferred)."""
 RELAXED_ELBOW = -1.9
 """Elbow angle of both hands on a bar ahead, rad: midway between straight and fully bent, so that
 the arms can give way to either side (inferred)."""
@@ -137,6 +147,25 @@ def human_body(parameters: BodyParameters, handles: tuple[Vector, ...]) -> Human
     body = HumanBody(parameters, arms, pivots, place, rest)
     _ = body.posture  # refuses what is out of reach, before anything is built
     return body
+
+
+def trunk_outline(parameters: BodyParameters) -> Outline:
+    """Return what the trunk occupies; free arms give way, legs are pictures."""
+    return across(trunk_breadth(parameters), trunk_depth(parameters))
+
+
+def arm_outlines(human: HumanBody, handles: tuple[Vector, ...]) -> tuple[Outline, ...]:
+    """Return what the arms occupy that hold given handles, from shoulder to hand, trunk axes."""
+    shoulders = SHOULDER_HEIGHT * human.parameters.height
+    return tuple(
+        bar(arm.shoulder, rest, ARM_RADIUS, min(shoulders, handle[2]) - ARM_RADIUS)
+        for arm, rest, handle in zip(human.arms, human.rest, handles, strict=True)
+    )
+
+
+def eye(parameters: BodyParameters) -> Vector:
+    """Return where a human sees from, trunk axes, m."""
+    return 0.0, 0.0, EYE_HEIGHT * parameters.height
 
 
 def _at(arm: Arm, scale: float) -> tuple[float, float]:

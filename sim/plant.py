@@ -11,16 +11,25 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from .anthropometry import EYE_HEIGHT, BodyParameters
 from .clearance import Distances
 from .errors import InputError
 from .motion import Array
+from .outline import Bodies, disc
 from .world import World
 from .wrench import AT_HANDLE, SensorMount, in_sensor_frame
 
 BASE_RADIUS = 0.28
-"""Radius of the disc that bounds the mobile base, m."""
+"""Radius of the disc that bounds the mobile base that ships, m."""
 HUMAN_RADIUS = 0.22
-"""Radius of the disc that bounds the human's trunk, m (half of a shoulder breadth of 0.44 m)."""
+"""Radius of the disc that stands for a human's trunk, m (half of a shoulder breadth of 0.44 m)."""
+CAMERA = (0.12, 0.0, 1.18)
+"""Where the mobile base that ships sees from, base axes, m (inferred)."""
+PLAIN_BODIES = Bodies(
+    {"base": disc(BASE_RADIUS), "human": disc(HUMAN_RADIUS)},
+    {"automation": CAMERA, "human": (0.0, 0.0, EYE_HEIGHT * BodyParameters.height)},
+)
+"""Two discs, for whoever knows nothing more of the bodies."""
 HUMAN_PLACE = (-0.10, -0.65, 0.0)
 """Pose at which the human walks beside the base, in base axes: m, m, rad."""
 
@@ -93,6 +102,8 @@ class PlantState:
         Whether the plant asks for the end of the episode, having lost its grip.
     time : float
         Since reset, s.
+    load_pose : (x, y, theta), optional
+        Of what the two carry, world axes: m, m, rad.
     """
 
     pose: tuple[float, float, float]
@@ -103,6 +114,14 @@ class PlantState:
     grip_held: bool = True
     over: bool = False
     time: float = 0.0
+    load_pose: tuple[float, float, float] | None = None
+
+    @property
+    def poses(self) -> tuple[tuple[float, float, float], ...]:
+        """Of base, human and, where there is one, load: in the order of `Bodies.outlines`."""
+        if self.load_pose is None:
+            return self.pose, self.human_pose
+        return self.pose, self.human_pose, self.load_pose
 
     @property
     def force_on_base(self) -> Array:
@@ -121,6 +140,11 @@ class Plant(Protocol):
     @property
     def steers_from_behind(self) -> bool:
         """Whether a push to the left asks for a turn to the right, as at the tail of a trailer."""
+        ...
+
+    @property
+    def bodies(self) -> Bodies:
+        """What it moves: outlines, and where the seats see from. It never changes."""
         ...
 
     def reset(self, world: World, rng: np.random.Generator) -> PlantState:
@@ -155,7 +179,10 @@ class Plant(Protocol):
         ...
 
     def distances(self, world: World) -> Distances:
-        """Return what measures how far base and human are from everything in a world."""
+        """Return what measures how far its bodies are from everything in a world.
+
+        It is called with the time and `PlantState.poses`, and is good until asked for again.
+        """
         ...
 
     def render(self, width: int, height: int) -> np.ndarray:

@@ -9,7 +9,15 @@ import numpy as np
 
 from .clearance import Clearance
 from .errors import SimulationError
-from .plant import BASE_RADIUS, HUMAN_PLACE, HUMAN_RADIUS, PlantState, Rates
+from .outline import Bodies
+from .plant import (
+    BASE_RADIUS,
+    HUMAN_PLACE,
+    HUMAN_RADIUS,
+    PLAIN_BODIES,
+    PlantState,
+    Rates,
+)
 from .world import World
 
 
@@ -34,6 +42,11 @@ class UnicyclePlant:
         self._hand_force = (0.0, 0.0)
         self._world: World | None = None
         self._steps = 0
+
+    @property
+    def bodies(self) -> Bodies:
+        """See `Plant.bodies`: two discs."""
+        return PLAIN_BODIES
 
     def reset(self, world: World, rng: np.random.Generator) -> PlantState:
         """See `Plant.reset`."""
@@ -100,7 +113,7 @@ class UnicyclePlant:
         from .topview import draw
 
         assert self._world is not None, "reset before render"
-        return draw(self._world, self._state(), width, height)
+        return draw(self._world, self._state(), PLAIN_BODIES, width, height)
 
     def close(self) -> None:
         """See `Plant.close`: nothing is held."""
