@@ -145,7 +145,7 @@ def test_energy_does_not_grow_when_nobody_pushes(option):
     # contact never quite come to rest.
     largest = np.reshape(energies, (-1, 10)).max(axis=1)
     assert started > 5.0
-    assert (np.diff(largest[1:]) <= (0.0 if option["drive"]["kind"] == "slip" else 1e-5)).all()
+    assert (np.diff(largest[1:]) <= (0.0 if option["drive"]["kind"] == "slip" else 1e-8)).all()
     assert largest[-1] < 1e-3
 
 

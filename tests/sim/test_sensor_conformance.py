@@ -32,7 +32,7 @@ def environment(built, sensor, control=20, **drive):
         plant_parameters={
             "drive": {"kind": kind, **drive},
             "grip": {"kind": grip, **WRIST},
-            # Light, so that its weight leaves every preset some range.
+            # Light, so that on wheels its weight leaves every preset some range.
             "coupling": {"kind": load, "mass": 2.0},
             "gait": {"enabled": True},
             "mount": MOUNT,
