@@ -26,8 +26,8 @@ class GripParameters:
         at their height never pull along z: that one transmits nothing.
     turn_stiffness, turn_damping : (float, float, float)
         Of wrist and grip about handle axes x, y, z: N m/rad and N m s/rad. Bodies that stay
-        upright turn about z alone: the first two transmit nothing. A relaxed wrist has 0.5 to 3 N m/rad
-        (inferred); 0 is a free wrist, which hands over no torque.
+        upright turn about z alone: the first two transmit nothing. A relaxed wrist has 0.5 to 3
+        N m/rad (inferred); 0 is a free wrist, which hands over no torque.
     slip_force : float, optional
         Force beyond which a compliant grip slides along, N; None never does.
     slip_length : float
