@@ -251,19 +251,24 @@ def check(
 
     code = PASSED
     for file in files:
+        agent = ":" in file and not Path(file).exists()
         try:
-            if ":" in file and not Path(file).exists():
+            if agent:
                 found = cli_humans.agent_faults(file)
             else:
                 found = [str(fault) for fault in faults(find(file))]
         except InputError as error:
+            if agent:  # there is nothing to check
+                complain(str(error))
+                code = BAD_INPUT
+                continue
             found = [str(error)]
         print("\n".join(found) if found else f"{file}: no fault")
         code = BAD_INPUT if found else code
     return code
 
 
-cli_humans.register(app)
+cli_humans.register(app, lambda as_json: list_parts(Kind.HUMANS, as_json))
 cli_studies.register(app)
 
 

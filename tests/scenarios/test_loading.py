@@ -233,6 +233,12 @@ def test_a_swapped_part_keeps_its_section_but_not_its_parameters(scenario_file):
         ("humn.parameters.gain=1", "did you mean 'human'?"),
         ("human.parameters.gian=1", "did you mean 'gain'?"),
         ("human.parameters.gain=abc", "a number is expected, not text"),
+        ("human.parameters.level=nan", "a list is expected, not text"),
+        ("human.parameters.gain=nan", "a number is expected, not text"),
+        (
+            "human.intention.changes=[{pace: -1}]",
+            "give either at_time (s) or at_station (m); pace = -1.0: must not be negative",
+        ),
         ("human.parameters.gain=true", "not true or false"),
         ("human=foo", "unknown human 'foo'; Known: bounded-memory, conceding"),
         ("world.path.points.2.0=1", "world.path.points has 2 entries, 0 to 1; '2' is none"),
