@@ -120,8 +120,10 @@ class Outlook(NamedTuple):
         Functions for the values below: floats, or arrays of shape (...).
     pace : float or ndarray
         Speed they want now, m/s.
-    offset, heading : float or ndarray
-        Pose of the base against the path they want now, m and rad.
+    offset : float or ndarray
+        Of the base from the path they want now, m.
+    cos, sin : float or ndarray
+        Of the base's heading against that path.
     aim : float or ndarray
         Offset from that path which they aim for in the end, m.
     ahead, left : float or ndarray
@@ -133,7 +135,8 @@ class Outlook(NamedTuple):
     m: Elementwise
     pace: Value
     offset: Value
-    heading: Value
+    cos: Value
+    sin: Value
     aim: Value
     ahead: Value
     left: Value
@@ -205,7 +208,7 @@ class Intention:
         aim = self._evasion.place()
         self._evasion.advance(m, self._pace * self._easing_share)
         offset = self._chosen(m, [there[1][1] for there in placed])
-        heading = self._chosen(m, [there[1][2] for there in placed])
+        cos, sin = (self._chosen(m, [there[2][i] for there in placed]) for i in range(2))
         lookahead = self._settings.lookahead
         targets = [
             route.towards(m, relative, world, axis, lookahead, aim)
@@ -213,7 +216,7 @@ class Intention:
         ]
         ahead = self._chosen(m, [target[0] for target in targets])
         left = self._chosen(m, [target[1] for target in targets])
-        return Outlook(m, self._pace, offset, heading, goal, ahead, left, self._route)
+        return Outlook(m, self._pace, offset, cos, sin, goal, ahead, left, self._route)
 
     def _change_mind(self, m: Elementwise, time: Array, station: Value) -> None:
         (now,) = m.parts(time)
