@@ -214,8 +214,10 @@ class Intention:
             (relative[1], *axis, goal, *route.towards(m, relative, world, axis, lookahead, aim))
             for route, relative, axis, _ in placed
         ]
-        chosen = (self._chosen(m, list(values)) for values in zip(*seen, strict=True))
-        return Outlook(m, self._pace, *chosen, self._route)
+        offset, cos, sin, goal, ahead, left = (
+            self._chosen(m, list(values)) for values in zip(*seen, strict=True)
+        )
+        return Outlook(m, self._pace, offset, cos, sin, goal, ahead, left, self._route)
 
     def _eased(self, m: Elementwise, goal: Value) -> Value:
         """Return the offset aimed for on the way to a goal, m."""
