@@ -142,6 +142,7 @@ def _load(source: str, options: dict[str, str], assignments: list[str]) -> Scena
 
 def _report(result: RunResult, folder: Path, files: dict[str, str]) -> None:
     from .expectations import explain
+    from .results import how_it_ended
 
     summary = result.summary
     metrics = summary["metrics"]
@@ -164,7 +165,7 @@ def _report(result: RunResult, folder: Path, files: dict[str, str]) -> None:
         files = {"picture": str(picture)} | files
     for what, file in files.items():
         print(f"{what + ':':<9} {file}")
-    print(f"ended by: {summary['end']}")
+    print(f"ended by: {how_it_ended(summary)}")
     factor, wall = summary["real_time_factor"], summary["wall_time_s"]
     if factor is not None:
         print(f"speed:    {factor:.0f} times real time ({wall:.2f} s)")
