@@ -125,7 +125,6 @@ def _instead_of(kind: str, value: Any) -> str:
             number = int(value) if kind == "int_type" or value.isdecimal() else float(value)
         except ValueError:
             return ", not text"
-        # YAML takes 1e-3 for text, so the number is shown as YAML writes it.
         return f", not text; write {yaml.safe_dump(number).split()[0]} without quotes"
     if value is None:
         return ", nothing is given"

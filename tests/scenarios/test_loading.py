@@ -56,7 +56,7 @@ rates: {control: 20.5, fisics: 240}
 world:
   path: {points: [[0, 0], [1, "0"]]}
   obstacles:
-    - {x: 1, y: 2, radius: 1e-1, kindd: puddle}
+    - {x: 1, y: 2, radius: "1e-1", kindd: puddle}
 human:
   name: escalating
   parameters:
@@ -210,6 +210,25 @@ def test_overrides_replace_values_of_any_kind(scenario_file):
     assert (scenario.rates.control, scenario.rates.physics, scenario.seed) == (40, 240, 7)
 
 
+@pytest.mark.parametrize(
+    ("written", "number"),
+    [("1e1", 10.0), ("1E+1", 10.0), ("1.5e1", 15.0), ("2.e0", 2.0), (".5e1", 5.0), ("+3e-1", 0.3)],
+)
+def test_a_number_may_have_an_exponent_wherever_yaml_is_read(scenario_file, written, number):
+    file = scenario_file(("duration: 3.0", f"duration: {written}"))
+    assert faults(file) == []
+    assert load(file).duration == number
+    assert load(scenario_file(), [f"duration={written}"]).duration == number
+
+
+def test_text_that_looks_like_a_number_stays_text(scenario_file):
+    file = scenario_file(("name: walk", 'name: "1e5"'), more="description: 1e5 m\n")
+    scenario = load(file)
+    assert (scenario.name, scenario.description) == ("1e5", "1e5 m")
+    file.write_text(to_yaml(scenario))
+    assert load(file) == scenario
+
+
 def test_a_swapped_part_keeps_its_section_but_not_its_parameters(scenario_file):
     file = scenario_file(
         ("  name: steady", "  name: steady\n  parameters: {gain: 3.0}\n  intention: {margin: 0.4}"),
@@ -234,7 +253,7 @@ def test_a_swapped_part_keeps_its_section_but_not_its_parameters(scenario_file):
         ("human.parameters.gian=1", "did you mean 'gain'?"),
         ("human.parameters.gain=abc", "a number is expected, not text"),
         ("human.parameters.gain=true", "not true or false"),
-        ("human=foo", "unknown human 'foo'; Known: bounded-memory, conceding"),
+        ("human=foo", "unknown human 'foo'; known: bounded-memory, conceding"),
         ("world.path.points.2.0=1", "world.path.points has 2 entries, 0 to 1; '2' is none"),
         ("name.x=1", "name is 'walk', there is nothing inside it"),
         ("rates.control=7", "is not a whole multiple"),

@@ -144,6 +144,11 @@ def test_a_faulty_file_gets_one_line_with_its_place(example, old, new, message):
     assert "\n" not in str(caught.value)
 
 
+def test_a_population_may_write_numbers_with_exponents(example):
+    population = example(EXAMPLE.replace("weight: 3", "weight: 3e0"))
+    assert population.groups[0].weight == 3.0
+
+
 def test_an_unknown_population_is_told_the_known_ones():
     with pytest.raises(InputError, match="did you mean 'determined'"):
         load_population("determinde")
