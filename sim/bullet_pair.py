@@ -78,6 +78,7 @@ class Pair:
             physicsClientId=client,
         )
         base = WheelBase if drive.kind == "wheels" else SlipBase
+        self._owner = object() if drive.kind == "wheels" else None
         self.base: Base = base(client, robot.rigid, drive, step)
         self.load = Load(coupling, client, self.base, robot.handle) if carried else None
         self.human = Chain(client, self.body.urdf(), self.body.joints)
@@ -100,11 +101,22 @@ class Pair:
     def save(self) -> Any:
         """Return what `restore` takes."""
         states = self.base_state, self.human_state, self.load_state
-        return states, self.base.save(), self.hands.save()
+        return states, self.base.save(), self.hands.save(), self._owner
 
     def restore(self, saved: Any) -> None:
-        """Go on from a saved state."""
-        states, drive, hands = saved
+        """Go on from a saved state.
+
+        Raises
+        ------
+        InputError
+            If it is kept by the engine, for another pair.
+        """
+        states, drive, hands, owner = saved
+        if owner is not self._owner:
+            raise InputError(
+                "restore: with drive.kind = 'wheels' the engine keeps a state, "
+                "so it can be restored only into the environment that saved it"
+            )
         self.put(*states)
         self.hands.restore(hands)
         self.base.restore(drive)
