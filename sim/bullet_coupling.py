@@ -43,6 +43,12 @@ class CouplingParameters:
             if not getattr(self, name) > 0.0:
                 raise InputError(f"{name} = {getattr(self, name)}: must be above 0")
 
+    def load(self, clamp: Vector) -> Rigid:
+        """Return the load in the axes in which its clamp is at a place, m; it reaches backwards."""
+        x, y, z = clamp
+        inertia = self.mass * (self.length**2 + self.width**2) / 12.0
+        return Rigid(self.mass, (x - self.length / 2.0, y, z), inertia, {})
+
 
 class Load:
     """A load clamped to the base's handle. Its origin is the clamp, it reaches backwards.
@@ -63,12 +69,9 @@ class Load:
         base: Base,
         handle: Vector,
     ) -> None:
-        p = parameters
         self._client = client
         self.handle = handle
-        inertia = p.mass * (p.length**2 + p.width**2) / 12.0
-        rigid = Rigid(p.mass, (-p.length / 2.0, 0.0, handle[2]), inertia, {})
-        self.slab = Slab(client, "load", rigid)
+        self.slab = Slab(client, "load", parameters.load((0.0, 0.0, handle[2])))
         self._clamp = engine.createConstraint(
             base.body,
             base.link,

@@ -14,10 +14,13 @@ from .bullet_view import Look
 from .bullet_wheels import WheelBase
 from .drive import DriveParameters
 from .errors import InputError
+from .gains import Gains, refuse_unstable
 from .grip import GripParameters
 from .human_body import human_body
 from .robot import RobotParameters, robot_of, two_hands
+from .stability import Bodies
 from .urdf import Vector
+from .walker import WalkerParameters
 
 SOLVER_ITERATIONS = 10
 """Enough for one grip: its reaction differs from that of 50 iterations by under 1e-6 N."""
@@ -32,6 +35,7 @@ class PairParameters:
     grip: GripParameters
     coupling: CouplingParameters
     robot: RobotParameters
+    walker: WalkerParameters = WalkerParameters()
 
 
 class Pair:
@@ -42,14 +46,16 @@ class Pair:
     parameters : PairParameters
     step : float
         Physics step in s.
+    held : int
+        Physics steps for which the human's forces are held.
 
     Raises
     ------
     InputError
-        If the robot cannot be had, or the human cannot hold it.
+        If the robot cannot be had, or the human cannot hold it, or gains are too high.
     """
 
-    def __init__(self, parameters: PairParameters, step: float) -> None:
+    def __init__(self, parameters: PairParameters, step: float, held: int = 1) -> None:
         drive, coupling, hand = parameters.drive, parameters.coupling, parameters.body.hand
         if drive.kind == "wheels" and parameters.robot.urdf is not None:
             raise InputError("drive.kind = 'wheels': only the robot that ships has wheels")
@@ -68,6 +74,10 @@ class Pair:
         self.place = (x + shift[0], y + shift[1], yaw)
         """Where the trunk walks, base axes: m, m, rad."""
         self.look = Look(robot.urdf, self.body, coupling if carried else None, robot.handle)
+
+        load = coupling.load(robot.handle) if carried else None
+        moved = Bodies(robot.rigid, load, self.body, self.place, drive)
+        refuse_unstable(moved, Gains(parameters.walker, parameters.grip), step, held)
 
         # Nothing is refused from here on, so that no client is left behind.
         self.client = client = connect()
