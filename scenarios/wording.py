@@ -65,6 +65,7 @@ def validate(model: type[M], data: Any, at: KeyPath = ()) -> tuple[M | None, lis
         for details in error.errors():
             path = _place(details, data)
             message = _message(details, path, at, model)
+            path = (*path, *_blamed(details))
             found.setdefault((*at, *path), Problem((*at, *path), message))
     return (None if found else validated), list(found.values())
 
@@ -93,8 +94,18 @@ def _message(details: ErrorDetails, path: KeyPath, at: KeyPath, model: type[Base
         return f"{key}: unknown key; {hint}"
     if kind == "value_error":
         reason = str(details["ctx"]["error"])
+        if _blamed(details):
+            return f"{key}.{reason}" if key else reason
         return reason if key and reason.startswith(key) else f"{key}: {reason}"
     return f"{key}{shown(value)}: {_cure(details)}"
+
+
+def _blamed(details: ErrorDetails) -> KeyPath:
+    """Return the key within a section that the section's own check begins its message with."""
+    if details["type"] != "value_error" or not isinstance(details["input"], dict):
+        return ()
+    first = str(details["ctx"]["error"]).partition(" ")[0].rstrip(":,")
+    return (first,) if first in details["input"] else ()
 
 
 def shown(value: Any) -> str:

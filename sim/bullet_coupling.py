@@ -8,9 +8,16 @@ from .bullet_bodies import Base, Slab
 from .bullet_engine import engine
 from .bullet_grip import Wrench
 from .errors import InputError
+from .parameters import Range, require_effect, require_ranges
 from .urdf import Rigid, Vector
 
 COUPLINGS = ("handle", "stretcher")
+RANGES: dict[str, Range] = {
+    "mass": (0.5, 150.0, "kg"),
+    "length": (0.3, 4.0, "m"),
+    "width": (0.05, 2.0, "m"),
+}
+"""What two can carry (inferred)."""
 
 
 @dataclass(frozen=True)
@@ -28,7 +35,8 @@ class CouplingParameters:
     Raises
     ------
     InputError
-        If the kind is unknown, or a number is not positive.
+        If the kind is unknown, a number is outside of `RANGES`, or one is given though there is
+        no load.
     """
 
     kind: str = "handle"
@@ -39,9 +47,8 @@ class CouplingParameters:
     def __post_init__(self) -> None:
         if self.kind not in COUPLINGS:
             raise InputError(f"kind = {self.kind!r}: must be one of {', '.join(COUPLINGS)}")
-        for name in ("mass", "length", "width"):
-            if not getattr(self, name) > 0.0:
-                raise InputError(f"{name} = {getattr(self, name)}: must be above 0")
+        require_ranges(self, RANGES)
+        require_effect(self, {"stretcher": RANGES})
 
     def load(self, clamp: Vector) -> Rigid:
         """Return the load in the axes in which its clamp is at a place, m; it reaches backwards."""

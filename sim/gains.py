@@ -57,6 +57,8 @@ class Gains:
         gains = self
         for key in GAINS:
             value = self.get(*key)
+            if value == Gains().get(*key) and self.grip.kind == "rigid" and key[0] == "grip":
+                continue  # a rigid grip has no gains but the wrist's
             more = tuple(factor * v for v in value) if isinstance(value, tuple) else factor * value
             gains = gains.having(*key, more)
         return gains

@@ -11,9 +11,19 @@ from collections import deque
 from dataclasses import dataclass
 from typing import Any
 
-from .errors import InputError
 from .gait import Gait
 from .human_body import HumanBody
+from .parameters import Range, require_ranges
+
+RANGES: dict[str, Range] = {
+    "stiffness": (0.0, 1e9, "N/m"),
+    "damping": (0.0, 1e9, "N s/m"),
+    "yaw_stiffness": (0.0, 1e9, "N m/rad"),
+    "yaw_damping": (0.0, 1e9, "N m s/rad"),
+    "delay": (0.0, 0.3, "s"),
+    "hand_stiffness": (0.0, 1e9, "N/m"),
+    "hand_damping": (0.0, 1e9, "N s/m"),
+}
 
 
 @dataclass(frozen=True)
@@ -36,7 +46,8 @@ class WalkerParameters:
     Raises
     ------
     InputError
-        If one is negative.
+        If one is outside of `RANGES`. What is too stiff to be simulated is refused where the
+        bodies are known (`cowalk.sim.gains`).
     """
 
     stiffness: float = 1500.0
@@ -48,9 +59,7 @@ class WalkerParameters:
     hand_damping: float = 10.0
 
     def __post_init__(self) -> None:
-        for name, value in vars(self).items():
-            if not value >= 0.0:
-                raise InputError(f"{name} = {value}: must be at least 0")
+        require_ranges(self, RANGES)
 
 
 class Walker:

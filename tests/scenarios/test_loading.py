@@ -192,6 +192,41 @@ def test_a_value_that_only_a_constructor_can_judge_is_found_at_its_line(scenario
     assert fault.message == "human.parameters.push = -1.0: must not be negative"
 
 
+@pytest.mark.parametrize(
+    ("plant", "key", "words"),
+    [
+        (
+            "drive: {\n  max_force: 0}",
+            "drive.max_force",
+            "max_force = 0.0 N: must lie between 1 and",
+        ),
+        ("walker: {\n  hand_stiffness: 1e6}", "walker.hand_stiffness", "at most 2200 works"),
+        (
+            "drive: {\n  delay: 0.8}",
+            "drive.delay",
+            "must be shorter than the run, duration = 0.5 s",
+        ),
+        ("robot: {\n  handle: grip}", "robot.handle", "no link 'grip'; known: body, handle"),
+    ],
+)
+def test_what_only_the_plant_can_judge_is_found_at_its_line(scenario_file, plant, key, words):
+    file = scenario_file(
+        ("plant: unicycle", f"plant: {{name: bullet, parameters: {{{plant}}}}}"),
+        ("duration: 3.0", "duration: 0.5"),
+    )
+    (fault,) = faults(file)
+    assert (fault.line, fault.key) == (4, f"plant.parameters.{key}")
+    assert fault.message.startswith(fault.key)
+    assert words in fault.message
+
+
+def test_a_sensor_or_a_human_later_than_the_run_is_refused(scenario_file):
+    late = "human.imperfections=[{name: reaction-delay, parameters: {delay: 4}}]"
+    assert "delay = 4 s: must be shorter than the run" in refusal(scenario_file(), late)
+    message = refusal(scenario_file(), "sensor.latency=0.5", "duration=0.4")
+    assert "sensor.latency = 0.5 s: must be shorter than the run, duration = 0.4 s" in message
+
+
 def test_overrides_replace_values_of_any_kind(scenario_file):
     obstacle = "world: {obstacles: [{x: 1, y: 2, radius: 0.5}], "
     scenario = load(
