@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from .plant import PlantState
 
 FORCE_SCALE = 7.5
@@ -62,8 +64,10 @@ class Reward:
         """
         _, offset, heading = relative_pose
         speed = state.twist[0]
-        fx, fy = state.force_on_base.mean(axis=0).tolist()
-        effort = (fx * fx + fy * fy) / FORCE_SCALE**2
+        force = state.force_on_base
+        # A third of the time that `mean` takes.
+        fx, fy = np.add.reduce(force).tolist()
+        effort = (fx * fx + fy * fy) / (len(force) * FORCE_SCALE) ** 2
         closeness = max(0.0, 1.0 - clearance / COMFORT)
         progress = speed * math.cos(heading) / self._pace
         human = progress - effort - 2.0 * closeness

@@ -33,27 +33,26 @@ def minimise(cost: Callable[[Array], Array], low: Array, high: Array, points: in
     cost : callable
         Takes an array of shape (..., n) and returns the cost of each element.
     low, high : ndarray, shape (...)
+        One of its axes may be 1 where the cost has more lanes: they then share the first grid.
     points : int
         Number of points of each grid; the second covers two cells of the first.
 
     Returns
     -------
     ndarray, shape (...)
+        A place for every lane of the cost.
     """
-    share = _grid(points)
-    left, right = low[..., None], high[..., None]
+    left, width = low[..., None], (high - low)[..., None]
     for _ in range(2):
-        grid = left + (right - left) * share
-        value = cost(grid)
-        best = np.minimum(np.maximum(np.argmin(value, axis=-1), 1), points - 2)[..., None]
-        around = best + _NEIGHBOURS
-        abscissa = np.take_along_axis(grid, around, axis=-1)
-        left, right = abscissa[..., :1], abscissa[..., 2:]
-    before, here, after = np.moveaxis(np.take_along_axis(value, around, axis=-1), -1, 0)
+        value = cost(left + width * _grid(points))
+        best = np.minimum(np.maximum(value.argmin(axis=-1), 1), points - 2)[..., None]
+        cell = width / (points - 1)
+        left, width = left + (best - 1) * cell, 2.0 * cell
+    before, here, after = np.moveaxis(np.take_along_axis(value, best + _NEIGHBOURS, axis=-1), -1, 0)
     bend = before - 2.0 * here + after
-    shift = np.where(bend > 0.0, 0.5 * (before - after) / np.where(bend > 0.0, bend, 1.0), 0.0)
-    cell = abscissa[..., 1] - abscissa[..., 0]
-    return np.asarray(abscissa[..., 1] + np.clip(shift, -1.0, 1.0) * cell)
+    shift = 0.5 * (before - after) / np.where(bend > 0.0, bend, np.inf)
+    inside = np.minimum(np.maximum(shift, -1.0), 1.0)[..., None]  # np.clip takes longer
+    return np.asarray((left + (1.0 + inside) * cell)[..., 0])
 
 
 @cache
@@ -111,10 +110,6 @@ class Problem(ABC):
         ndarray, shape (..., n, 2)
         """
 
-    def _turn_bounds(self, lanes: tuple[int, ...]) -> tuple[Array, Array]:
-        low, high = self._lower[..., 1], self._upper[..., 1]
-        return np.broadcast_to(low, lanes), np.broadcast_to(high, lanes)
-
 
 class TurnProblem(Problem):
     """Omega alone is negotiated, v is the usual pace; d is the distance from the path."""
@@ -132,9 +127,8 @@ class TurnProblem(Problem):
         lanes = np.broadcast_shapes(
             self._pose.shape[:-1], self._horizon.shape[:-1], self._upper.shape[:-1]
         )
-        return self._at_pace(
-            minimise(lambda omega: self.cost(self._at_pace(omega)), *self._turn_bounds(lanes))
-        )
+        low, high = (np.broadcast_to(b[..., 1], lanes) for b in (self._lower, self._upper))
+        return self._at_pace(minimise(lambda omega: self.cost(self._at_pace(omega)), low, high))
 
     def front(self, share: Array, own: Array, human: Array) -> Array:
         """See `Problem.front`; in one dimension it is the interval between the wishes."""
@@ -194,27 +188,27 @@ class TwistProblem(Problem):
 
     def _best(self, own_weight: Array, human_weight: Array, human: Array) -> Array:
         """Minimise own_weight * J + human_weight * |(p - p_H)/p_ub|^2 for each weight."""
-        lanes = own_weight.shape
+        lanes = self._pose.shape[:-1]
         scale = self._upper**-2
         own = own_weight[..., None]
         v_weight = human_weight[..., None] * scale[..., 0]
         omega_weight = human_weight[..., None] * scale[..., 1]
         v_human, omega_human = human[..., None, None, 0], human[..., None, None, 1]
-        low, high = self._lower[..., 0], self._upper[..., 0]
+        asked, slowest, fastest = v_weight * v_human, self._lower[..., 0], self._upper[..., 0]
 
         def solve(omega: Array) -> tuple[Array, Array]:
-            a, b, c = (part.reshape(omega.shape) for part in self._parabola(flat(omega)))
-            free = (own * b + v_weight * v_human) / (own * a + v_weight)
-            v = np.minimum(np.maximum(free, low), high)  # np.clip takes three times as long
-            away = v_weight * (v - v_human) ** 2 + omega_weight * (omega - omega_human) ** 2
-            return v, own * ((a * v - 2.0 * b) * v + c) + away
+            a, b, c = self._parabola(omega.reshape(*lanes, -1))
+            # A twist at v costs (a v - 2 b) v, beside what v does not change.
+            a = own * a.reshape(omega.shape) + v_weight
+            b = own * b.reshape(omega.shape) + asked
+            v = np.minimum(np.maximum(b / a, slowest), fastest)  # np.clip takes longer
+            turned = omega - omega_human
+            fixed = own * c.reshape(omega.shape) + omega_weight * (turned * turned)
+            return v, (a * v - 2.0 * b) * v + fixed
 
-        def flat(omega: Array) -> Array:
-            return omega.reshape(*self._pose.shape[:-1], -1)
-
-        omega = minimise(lambda turn: solve(turn)[1], *self._turn_bounds(lanes), points=17)
-        v = solve(omega[..., None])[0][..., 0]
-        return np.stack((v, omega), axis=-1)
+        low, high = (np.broadcast_to(x[..., 1:], (*lanes, 1)) for x in (self._lower, self._upper))
+        omega = minimise(lambda turn: solve(turn)[1], low, high, points=17)
+        return np.stack((solve(omega[..., None])[0][..., 0], omega), axis=-1)
 
 
 PROBLEMS: dict[str, type[Problem]] = {"omega": TurnProblem, "both": TwistProblem}
