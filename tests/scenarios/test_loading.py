@@ -198,7 +198,7 @@ def test_a_value_that_only_a_constructor_can_judge_is_found_at_its_line(scenario
         (
             "drive: {\n  max_force: 0}",
             "drive.max_force",
-            "max_force = 0.0 N: must lie between 1 and",
+            "max_force = 0.0 N: must lie between 1",
         ),
         ("walker: {\n  hand_stiffness: 1e6}", "walker.hand_stiffness", "at most 2200 works"),
         (
