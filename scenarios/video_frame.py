@@ -40,7 +40,9 @@ def _face(size: int, bold: bool = False) -> ImageFont.FreeTypeFont:
     return _FACES[size, bold]
 
 
-def _fill(image: Image.Image, outline: Array, colour: str, opacity: float = 1.0) -> None:
+def _fill(
+    image: Image.Image, outline: Array, colour: str, opacity: float = 1.0, smooth: int = SMOOTH
+) -> None:
     """Fill a polygon, pixels (n, 2), with smooth edges; one with unknown corners is left out."""
     if not np.isfinite(outline).all():
         return
@@ -48,30 +50,30 @@ def _fill(image: Image.Image, outline: Array, colour: str, opacity: float = 1.0)
     right, bottom = np.minimum(np.ceil(outline.max(axis=0)).astype(int) + 1, image.size)
     if right <= left or bottom <= top:
         return
-    mask = Image.new("L", ((right - left) * SMOOTH, (bottom - top) * SMOOTH))
-    corners = ((outline - (left, top)) * SMOOTH).ravel().tolist()
+    mask = Image.new("L", ((right - left) * smooth, (bottom - top) * smooth))
+    corners = ((outline - (left, top)) * smooth).ravel().tolist()
     ImageDraw.Draw(mask).polygon(corners, fill=round(255 * opacity))
-    image.paste(colour, (int(left), int(top)), mask.reduce(SMOOTH))
+    image.paste(colour, (int(left), int(top)), mask.reduce(smooth) if smooth > 1 else mask)
 
 
 def draw_arrow(image: Image.Image, tail: Array, tip: Array, colour: str = FORCE) -> None:
-    """Draw an outlined arrow between two pixels; nothing if it is too short to see."""
+    """Draw an outlined, see-through arrow between two pixels; nothing if it is too short to see."""
     along = tip - tail
     length = float(np.hypot(*along))
     if not length > 4.0:
         return
     along = along / length
     side = np.array([-along[1], along[0]])
-    head = min(20.0, 0.6 * length)
+    head = min(16.0, 0.6 * length)
 
     def outline(grow: float) -> Array:
-        shaft, wing, neck = 4.0 + grow, 10.0 + 1.4 * grow, length - head - grow
+        shaft, wing, neck = 2.5 + grow, 7.0 + 1.4 * grow, length - head - grow
         ahead = np.array([-grow, neck, neck, length + 2.0 * grow, neck, neck, -grow])
         beside = np.array([shaft, shaft, wing, 0.0, -wing, -shaft, -shaft])
         return np.asarray(tail + ahead[:, None] * along + beside[:, None] * side)
 
-    _fill(image, outline(2.0), AGREED)
-    _fill(image, outline(0.0), colour)
+    _fill(image, outline(1.5), AGREED, 0.6)
+    _fill(image, outline(0.0), colour, 0.9)
 
 
 def draw_band(
@@ -100,11 +102,14 @@ def draw_band(
 
 def draw_shadow(image: Image.Image, camera: Camera, place: Array, radius: float) -> None:
     """Darken the floor under a body: place (x, y, ...) in m, world axes."""
-    angles = np.linspace(0.0, 2.0 * math.pi, 40, endpoint=False)
-    circle = np.stack((np.cos(angles), np.sin(angles), np.zeros(40)), axis=-1)
-    middle = np.array([place[0], place[1], 0.0])
-    for share in np.linspace(1.3, 0.7, 7):
-        _fill(image, camera.project(middle + circle * radius * share), "#101418", 0.055)
+    rings = np.linspace(1.3, 0.7, 5)[:, None, None] * (radius * _CIRCLE)
+    # Five rings on one another are smooth enough.
+    for ring in camera.project(rings + np.array([place[0], place[1], 0.0])):
+        _fill(image, ring, "#101418", 0.075, smooth=1)
+
+
+_ANGLES = np.linspace(0.0, 2.0 * math.pi, 32, endpoint=False)
+_CIRCLE = np.stack((np.cos(_ANGLES), np.sin(_ANGLES), np.zeros(32)), axis=-1)
 
 
 class Frame:
@@ -122,7 +127,11 @@ class Frame:
         draw.text((18, 10), title, AGREED, _face(21, bold=True))
         draw.text((18, 38), details, MUTED, _face(13))
         self._image = self._blank
-        self._draw = draw
+        self._draw = draw  # labels come before `keep`, values after `clear`
+
+    def keep(self) -> None:
+        """Let every new frame begin with what was drawn so far: lettering is slow."""
+        self._blank = self._image.copy()
 
     def clear(self) -> None:
         """Start a new frame."""
@@ -150,12 +159,13 @@ class Frame:
             self._draw.text((left + 18, top), text, AGREED, _face(12))
             left += 18 + self._draw.textlength(text, _face(12)) + 14
 
-    def gauge(
-        self, top: float, name: str, value: float, colour: str, truth: float = math.nan
-    ) -> None:
+    def label(self, top: float, name: str) -> None:
+        """Write what a gauge shows."""
+        self._draw.text((VIEW[0] + 18, top + 9), name, AGREED, _face(13), anchor="lm")
+
+    def gauge(self, top: float, value: float, colour: str, truth: float = math.nan) -> None:
         """Show a value in [0, 1] as a bar, and the truth as a pale one around it."""
         left, right = VIEW[0] + 86, WIDTH - 62
-        self._draw.text((VIEW[0] + 18, top + 9), name, AGREED, _face(13), anchor="lm")
         self._draw.rectangle((left, top, right, top + 18), "#F4F4F4")
         for share, inset, paint in ((truth, 0, PALE), (value, 4, colour)):
             if math.isfinite(share):
@@ -164,10 +174,9 @@ class Frame:
         said = f"{value:.2f}" if math.isfinite(value) else "-"
         self._draw.text((WIDTH - 18, top + 9), said, AGREED, _face(13), anchor="rm")
 
-    def reading(self, top: float, text: str, value: str) -> None:
-        """Write a line with a value at its end."""
+    def reading(self, top: float, text: str) -> None:
+        """Write a line."""
         self._draw.text((VIEW[0] + 18, top + 9), text, AGREED, _face(13), anchor="lm")
-        self._draw.text((WIDTH - 18, top + 9), value, AGREED, _face(13), anchor="rm")
 
     def pixels(self) -> NDArray[np.uint8]:
         """Return the frame, uint8, shape (HEIGHT, WIDTH, 3)."""

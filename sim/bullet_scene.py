@@ -5,6 +5,8 @@ It knows nothing about who stands there, so it serves whatever is loaded.
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -14,8 +16,6 @@ from .shapes import Place, Quaternion, Shape, Vector
 
 LIGHT = (-2.0, 3.0, 6.0)
 """Where the light comes from, world axes."""
-SKY_HIGH, SKY_LOW = np.array([198.0, 212.0, 224.0]), np.array([242.0, 244.0, 246.0])
-"""Colours behind everything, at the upper and the lower edge of a picture."""
 
 _KINDS = {
     engine.GEOM_BOX: "box",
@@ -58,14 +58,25 @@ def look_at(
     return Camera(np.reshape(view, (4, 4)).T, np.reshape(projection, (4, 4)).T, width, height)
 
 
-def photograph(client: int, camera: Camera) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
+def photograph(
+    client: int, camera: Camera, behind: NDArray[np.uint8], flat: Collection[int] = ()
+) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
     """Return what a camera sees, rendered in software.
+
+    Parameters
+    ----------
+    client : int
+    camera : Camera
+    behind : ndarray, uint8, shape (height, width, 3)
+        What is seen where no body is.
+    flat : collection of int
+        Bodies that lie on the floor.
 
     Returns
     -------
     picture : ndarray, uint8, shape (height, width, 3)
-    actors : ndarray, bool, shape (height, width)
-        Where a body that has a name is seen: not floor, walls or other scenery, nor nothing.
+    upright : ndarray, bool, shape (height, width)
+        Where a body is seen that does not lie on the floor: it hides what is drawn there.
     """
     _, _, pixels, _, seen = engine.getCameraImage(
         camera.width,
@@ -78,18 +89,14 @@ def photograph(client: int, camera: Camera) -> tuple[NDArray[np.uint8], NDArray[
         physicsClientId=client,
     )
     size = (camera.height, camera.width)
-    picture = np.reshape(np.array(pixels, dtype=np.uint8), (*size, 4))[..., :3].copy()
-    body = np.reshape(seen, size)
-    share = np.linspace(0.0, 1.0, size[0])[:, None, None]
-    sky = (SKY_HIGH + share * (SKY_LOW - SKY_HIGH)).astype(np.uint8)
-    np.copyto(picture, sky, where=(body < 0)[..., None])
-    bodies = range(engine.getNumBodies(client))
-    named = [engine.getBodyUniqueId(index, client) for index in bodies]
-    actors = np.zeros(size, dtype=bool)
-    for uid in named:
-        if engine.getBodyInfo(uid, client)[1]:
-            actors |= body == uid
-    return picture, actors
+    picture = np.array(np.reshape(np.asarray(pixels, dtype=np.uint8), (*size, 4))[..., :3])
+    body = np.reshape(np.asarray(seen), size)
+    nothing = body < 0
+    np.copyto(picture, behind, where=nothing[..., None])
+    upright = ~nothing
+    for uid in flat:
+        upright &= body != uid
+    return picture, upright
 
 
 class Scene:

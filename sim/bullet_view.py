@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from .bullet_coupling import CouplingParameters
 from .bullet_engine import connect, disconnect, engine, load
+from .bullet_floor import backdrop
 from .bullet_scene import look_at, photograph
 from .bullet_scenery import Scenery
 from .camera import Camera
@@ -91,7 +92,7 @@ class Viewer:
         self._carried = self._stretcher(look) if look.load else None
         self._walked: tuple[float, float] | None = None
         self._phase = 0.0
-        self._scenery = Scenery(self._client, world)
+        self._scenery = Scenery(self._client, world, floor=gui)
         if gui:
             engine.configureDebugVisualizer(
                 engine.COV_ENABLE_RENDERING, 1, physicsClientId=self._client
@@ -203,7 +204,19 @@ class Viewer:
 
     def picture(self, width: int, height: int) -> NDArray[np.uint8]:
         """Return what the chase camera sees, uint8, shape (height, width, 3)."""
-        return photograph(self._client, self.camera("chase", width, height))[0]
+        return self.look(self.camera("chase", width, height))[0]
+
+    def look(self, camera: Camera) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
+        """Return what a camera sees, and where a body hides what is drawn on the floor.
+
+        Returns
+        -------
+        picture : ndarray, uint8, shape (height, width, 3)
+        upright : ndarray, bool, shape (height, width)
+        """
+        scenery = self._scenery
+        behind = backdrop(scenery.floor, camera)
+        return photograph(self._client, camera, behind, scenery.flat)
 
     def close(self) -> None:
         """Free the world. May be called twice."""
