@@ -127,11 +127,11 @@ class Video:
             ):
                 camera = viewer.camera(kind, *size)
                 seen, upright = viewer.look(camera)
-                image = Image.fromarray(seen)
+                image = seen.copy()
                 draw_shadow(image, camera, np.array([row["x"], row["y"]]), BASE_RADIUS)
                 draw_shadow(image, camera, np.array([row["human_x"], row["human_y"]]), 0.3)
                 self._draw_wishes(image, camera, row)
-                image.paste(Image.fromarray(seen), mask=Image.fromarray(upright))
+                image.paste(seen, mask=upright)
                 _draw_force(image, camera, row, plant.handle)
                 frame.place(image, *place)
         else:

@@ -8,7 +8,7 @@ from pathlib import Path
 import matplotlib
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageDraw, ImageFilter, ImageFont
 
 from cowalk.sim.camera import Camera
 from cowalk.sim.motion import Array
@@ -40,9 +40,7 @@ def _face(size: int, bold: bool = False) -> ImageFont.FreeTypeFont:
     return _FACES[size, bold]
 
 
-def _fill(
-    image: Image.Image, outline: Array, colour: str, opacity: float = 1.0, smooth: int = SMOOTH
-) -> None:
+def _fill(image: Image.Image, outline: Array, colour: str, opacity: float = 1.0) -> None:
     """Fill a polygon, pixels (n, 2), with smooth edges; one with unknown corners is left out."""
     if not np.isfinite(outline).all():
         return
@@ -50,10 +48,10 @@ def _fill(
     right, bottom = np.minimum(np.ceil(outline.max(axis=0)).astype(int) + 1, image.size)
     if right <= left or bottom <= top:
         return
-    mask = Image.new("L", ((right - left) * smooth, (bottom - top) * smooth))
-    corners = ((outline - (left, top)) * smooth).ravel().tolist()
+    mask = Image.new("L", ((right - left) * SMOOTH, (bottom - top) * SMOOTH))
+    corners = ((outline - (left, top)) * SMOOTH).ravel().tolist()
     ImageDraw.Draw(mask).polygon(corners, fill=round(255 * opacity))
-    image.paste(colour, (int(left), int(top)), mask.reduce(smooth) if smooth > 1 else mask)
+    image.paste(colour, (int(left), int(top)), mask.reduce(SMOOTH))
 
 
 def draw_arrow(image: Image.Image, tail: Array, tip: Array, colour: str = FORCE) -> None:
@@ -102,10 +100,18 @@ def draw_band(
 
 def draw_shadow(image: Image.Image, camera: Camera, place: Array, radius: float) -> None:
     """Darken the floor under a body: place (x, y, ...) in m, world axes."""
-    rings = np.linspace(1.3, 0.7, 5)[:, None, None] * (radius * _CIRCLE)
-    # Five rings on one another are smooth enough.
-    for ring in camera.project(rings + np.array([place[0], place[1], 0.0])):
-        _fill(image, ring, "#101418", 0.075, smooth=1)
+    outline = camera.project(radius * _CIRCLE + np.array([place[0], place[1], 0.0]))
+    if not np.isfinite(outline).all():
+        return
+    low, high = outline.min(axis=0), outline.max(axis=0)
+    soft = 0.12 * float((high - low).min())
+    left, top = (np.floor(low) - 3.0 * soft).astype(int)
+    right, bottom = (np.ceil(high) + 3.0 * soft).astype(int)
+    if right <= 0 or bottom <= 0 or left >= image.width or top >= image.height:
+        return
+    mask = Image.new("L", (int(right - left), int(bottom - top)))
+    ImageDraw.Draw(mask).polygon((outline - (left, top)).ravel().tolist(), fill=90)
+    image.paste("#101418", (int(left), int(top)), mask.filter(ImageFilter.GaussianBlur(soft)))
 
 
 _ANGLES = np.linspace(0.0, 2.0 * math.pi, 32, endpoint=False)

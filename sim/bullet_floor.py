@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
 from .bullet_engine import engine
@@ -58,32 +58,63 @@ def floor_areas(world: World, margin: float) -> list[Area]:
     return [*areas, ((float(left), float(right)), (float(bottom), float(top)))]
 
 
-def backdrop(areas: Sequence[Area], camera: Camera) -> NDArray[np.uint8]:
-    """Return sky and floor as a camera sees them, uint8, shape (height, width, 3).
+@lru_cache(maxsize=4)
+def _sky(width: int, height: int) -> Image.Image:
+    share = np.linspace(0.0, 1.0, height)[:, None, None]
+    sky = (SKY_HIGH + share * (SKY_LOW - SKY_HIGH)).astype(np.uint8)
+    return Image.fromarray(np.repeat(sky, width, axis=1))
+
+
+class Floor:
+    """The floor of a world, painted.
 
     Parameters
     ----------
     areas : sequence of Area
         What is tiled.
-    camera : Camera
     """
-    width, height = camera.width, camera.height
-    share = np.linspace(0.0, 1.0, height)[:, None, None]
-    sky = (SKY_HIGH + share * (SKY_LOW - SKY_HIGH)).astype(np.uint8)
-    image = Image.fromarray(np.repeat(sky, width, axis=1))
-    draw = ImageDraw.Draw(image)
-    plane = (camera.projection @ camera.view)[np.ix_((0, 1, 3), (0, 1, 3))]
-    for (west, east), (south, north) in areas:
-        whole = np.array([[[west, south], [east, south], [east, north], [west, north]]])
-        for tiles, colour in ((whole, PAINT), (_tiles(west, east, south, north)[1], PAINT_DARK)):
-            clip = tiles @ plane[:, :2].T + plane[:, 2]
-            for corners in clip:
-                seen = corners if corners[:, 2].min() > NEAREST else _in_front(corners)
-                if len(seen):
-                    right, up = (seen[:, :2] / seen[:, 2:]).T
-                    pixels = np.stack(((right + 1.0) * width / 2.0, (1.0 - up) * height / 2.0), -1)
-                    draw.polygon(pixels.ravel().tolist(), fill=colour)
-    return np.asarray(image)
+
+    def __init__(self, areas: Sequence[Area]) -> None:
+        self.areas = areas
+        # The whole area light, and the dark tiles on it.
+        polygons: list[Array] = []
+        self._colours: list[tuple[int, int, int]] = []
+        for (west, east), (south, north) in areas:
+            whole = np.array([[[west, south], [east, south], [east, north], [west, north]]])
+            dark = _tiles(west, east, south, north)[1]
+            polygons += [whole, dark]
+            self._colours += [PAINT] + [PAINT_DARK] * len(dark)
+        self._corners = np.concatenate(polygons)
+
+    def paint(self, camera: Camera) -> Image.Image:
+        """Return sky and floor as a camera sees them, RGB."""
+        width, height = camera.width, camera.height
+        image = _sky(width, height).copy()
+        polygon = ImageDraw.Draw(image).polygon
+        plane = (camera.projection @ camera.view)[np.ix_((0, 1, 3), (0, 1, 3))]
+        clip = self._corners @ plane[:, :2].T + plane[:, 2]
+        nearest = clip[..., 2].min(axis=1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            pixels = _pixels(clip, width, height)
+        # Most of a floor is beside the picture.
+        low, high = pixels.min(axis=1), pixels.max(axis=1)
+        beside = ((high < 0.0) | (low > (width, height))).any(axis=1)
+        behind = nearest <= NEAREST
+        for index in np.flatnonzero(behind | ~beside):
+            if behind[index]:
+                seen = _in_front(clip[index])
+                corners = _pixels(seen, width, height) if len(seen) else None
+            else:
+                corners = pixels[index]
+            if corners is not None:
+                polygon(corners.ravel().tolist(), fill=self._colours[index])
+        return image
+
+
+def _pixels(clip: Array, width: int, height: int) -> Array:
+    """Return pixels, shape (..., 2), of points in clip space (x, y, w)."""
+    half = np.array([width / 2.0, -height / 2.0])
+    return clip[..., :2] / clip[..., 2:] * half + (width / 2.0, height / 2.0)
 
 
 def _tiles(west: float, east: float, south: float, north: float) -> tuple[Array, Array]:

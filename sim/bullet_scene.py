@@ -9,11 +9,15 @@ from collections.abc import Collection
 
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image
 
 from .bullet_engine import engine
 from .camera import Camera
 from .shapes import Place, Quaternion, Shape, Vector
 
+FINENESS = 0.8
+"""Pixels rendered for each of a picture's, along either side: a third of the time is saved, and
+edges become smooth."""
 LIGHT = (-2.0, 3.0, 6.0)
 """Where the light comes from, world axes."""
 
@@ -59,28 +63,30 @@ def look_at(
 
 
 def photograph(
-    client: int, camera: Camera, behind: NDArray[np.uint8], flat: Collection[int] = ()
-) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
+    client: int, camera: Camera, behind: Image.Image, flat: Collection[int] = ()
+) -> tuple[Image.Image, Image.Image]:
     """Return what a camera sees, rendered in software.
 
     Parameters
     ----------
     client : int
     camera : Camera
-    behind : ndarray, uint8, shape (height, width, 3)
-        What is seen where no body is.
+    behind : Image
+        What is seen where no body is, RGB; changed in place.
     flat : collection of int
         Bodies that lie on the floor.
 
     Returns
     -------
-    picture : ndarray, uint8, shape (height, width, 3)
-    upright : ndarray, bool, shape (height, width)
-        Where a body is seen that does not lie on the floor: it hides what is drawn there.
+    picture : Image
+        RGB.
+    upright : Image
+        Mask of where a body is seen that does not lie on the floor: it hides what is drawn there.
     """
+    width, height = round(FINENESS * camera.width), round(FINENESS * camera.height)
     _, _, pixels, _, seen = engine.getCameraImage(
-        camera.width,
-        camera.height,
+        width,
+        height,
         camera.view.T.ravel().tolist(),
         camera.projection.T.ravel().tolist(),
         lightDirection=LIGHT,
@@ -88,15 +94,21 @@ def photograph(
         renderer=engine.ER_TINY_RENDERER,
         physicsClientId=client,
     )
-    size = (camera.height, camera.width)
-    picture = np.array(np.reshape(np.asarray(pixels, dtype=np.uint8), (*size, 4))[..., :3])
-    body = np.reshape(np.asarray(seen), size)
-    nothing = body < 0
-    np.copyto(picture, behind, where=nothing[..., None])
-    upright = ~nothing
+    body = np.reshape(np.asarray(seen), (height, width))
+    something = body >= 0
+    rendered = np.reshape(np.asarray(pixels, dtype=np.uint8), (height, width, 4))
+    rendered[..., 3] = _opaque(something)
+    # What is transparent has no colour when sizes change, so edges have no fringe.
+    picture = Image.fromarray(rendered).resize(behind.size, Image.Resampling.BILINEAR)
+    behind.paste(picture, mask=picture)
     for uid in flat:
-        upright &= body != uid
-    return picture, upright
+        something &= body != uid
+    upright = Image.fromarray(_opaque(something)).resize(behind.size, Image.Resampling.BILINEAR)
+    return behind, upright
+
+
+def _opaque(where: NDArray[np.bool_]) -> NDArray[np.uint8]:
+    return where.view(np.uint8) * np.uint8(255)
 
 
 class Scene:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from .bullet_engine import engine
-from .bullet_floor import floor_areas, lay_floor
+from .bullet_floor import Floor, floor_areas, lay_floor
 from .footprint import Rectangle, furniture, pieces, walls
 from .pedestrians import Pedestrian
 from .world import World
@@ -41,14 +41,15 @@ class Scenery:
         Where to build it.
     world : World
     floor : bool
-        Lay a floor; pictures get theirs painted (`cowalk.sim.bullet_floor.backdrop`).
+        Lay a floor; pictures get theirs painted (`cowalk.sim.bullet_floor.Floor`).
     """
 
     def __init__(self, client: int, world: World, floor: bool = True) -> None:
         self._client = client
-        self.floor = floor_areas(world, MARGIN)
-        """The rectangles that the floor is made of."""
-        self.flat = [body for area in self.floor if floor for body in lay_floor(client, *area)]
+        areas = floor_areas(world, MARGIN)
+        self.floor = Floor(areas)
+        """Paints the floor."""
+        self.flat = [body for area in areas if floor for body in lay_floor(client, *area)]
         """Bodies that lie on the floor or are it."""
         for wall in walls(world, MARGIN):
             across = wall.half_length < wall.half_width or wall.yaw != 0.0

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image
 
 from .bullet_coupling import CouplingParameters
 from .bullet_engine import connect, disconnect, engine, load
-from .bullet_floor import backdrop
 from .bullet_scene import look_at, photograph
 from .bullet_scenery import Scenery
 from .camera import Camera
@@ -204,19 +204,12 @@ class Viewer:
 
     def picture(self, width: int, height: int) -> NDArray[np.uint8]:
         """Return what the chase camera sees, uint8, shape (height, width, 3)."""
-        return self.look(self.camera("chase", width, height))[0]
+        return np.asarray(self.look(self.camera("chase", width, height))[0])
 
-    def look(self, camera: Camera) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
-        """Return what a camera sees, and where a body hides what is drawn on the floor.
-
-        Returns
-        -------
-        picture : ndarray, uint8, shape (height, width, 3)
-        upright : ndarray, bool, shape (height, width)
-        """
+    def look(self, camera: Camera) -> tuple[Image.Image, Image.Image]:
+        """Return what a camera sees, and the mask of what hides things drawn on the floor."""
         scenery = self._scenery
-        behind = backdrop(scenery.floor, camera)
-        return photograph(self._client, camera, behind, scenery.flat)
+        return photograph(self._client, camera, scenery.floor.paint(camera), scenery.flat)
 
     def close(self) -> None:
         """Free the world. May be called twice."""
