@@ -85,6 +85,7 @@ class Pair:
         engine.setPhysicsEngineParameter(
             numSolverIterations=SOLVER_ITERATIONS,
             solverResidualThreshold=0.0,  # its default ends the iteration 0.04 N too early
+            useSplitImpulse=0,  # else a joint more than 0.04 rad beyond its limit stays there
             physicsClientId=client,
         )
         base = WheelBase if drive.kind == "wheels" else SlipBase
