@@ -39,9 +39,11 @@ class WalkerParameters:
     delay : float
         Delay of both, s: about that of a long-latency stretch reflex.
     hand_stiffness, hand_damping : float
-        Of the relaxed arm about its posture, seen at the hand, N/m and N s/m. The stiffness is
-        the low end of the 50-300 N/m, the damping of the 5-30 N s/m, measured for human arms.
-        Two arms share them.
+        Of the arm about its posture, seen at the hand, N/m and N s/m, from the lower part of the
+        project's ranges of 50-300 N/m and 5-30 N s/m. Two arms share them. Such numbers come from
+        small displacements of a held hand (Mussa-Ivaldi, Hogan and Bizzi 1985, J Neurosci
+        5:2732; Dolan, Friedman and Nagurka 1993, IEEE Trans SMC 23:698); the ends of the ranges
+        could not be looked up there, so they count as typical.
 
     Raises
     ------
