@@ -220,6 +220,25 @@ def test_what_only_the_plant_can_judge_is_found_at_its_line(scenario_file, plant
     assert words in fault.message
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("name: walk", "name: a/b", "name = 'a/b': a run's folder is named so: it must not"),
+        ("duration: 3.0", "duration: 0", "duration = 0: it must be above 0"),
+        ("name: steady", "name: steady\n  parameters: {level: 2}", "a list of 2 is expected"),
+        ("[[0.0, 0.0], [30.0, 0.0]]", "[[0, 0], 3]", "points.1 = 3: a list of 2 is expected"),
+        ("[[0.0, 0.0], [30.0, 0.0]]", "[[0, 0]]", "at least two points (x, y), not 1"),
+        ("duration: 3.0", "rates: {control: 0}", "rates.control = 0 Hz: it must be above 0"),
+        ("duration: 3.0", "durations: 3.0", "durations: unknown key; did you mean 'duration'? K"),
+        ("duration: 3.0", "zzz: 3.0", "zzz: unknown key; known: name, description"),
+    ],
+)
+def test_a_fault_is_told_in_plain_words(scenario_file, old, new, words):
+    (fault,) = faults(scenario_file((old, new)))
+    assert words in fault.message
+    assert not re.search(r"should|pattern|shape|tuple", fault.message)
+
+
 def test_a_sensor_or_a_human_later_than_the_run_is_refused(scenario_file):
     late = "human.imperfections=[{name: reaction-delay, parameters: {delay: 4}}]"
     assert "delay = 4 s: must be shorter than the run" in refusal(scenario_file(), late)
