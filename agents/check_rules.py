@@ -38,9 +38,11 @@ def observations(size: float) -> Iterator[Observation]:
         puddle = np.zeros((OBSTACLE_ROWS, OBSTACLE_COLUMNS))
         puddle[0, :4] = (1.0, 4.0 - pose[0], -0.6 - pose[1], 0.3)
         force = np.array([1.5 * size * np.sin(time), 3.0 * size * np.cos(0.9 * time)])
+        wrist = 0.2 * size * np.sin(0.7 * time)
         yield Observation(
             twist=np.array([v, omega]),
             force=np.tile(force, (12, 1)),
+            wrench=np.tile((*force, 0.0, 0.0, 0.0, wrist), (12, 1)),
             force_valid=np.ones(12),
             pose=pose.copy(),
             pose_world=pose.copy(),  # the path is the world's x axis

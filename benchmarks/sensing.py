@@ -7,6 +7,7 @@ import numpy as np
 from cowalk.sim.env import parallel_env
 from cowalk.sim.sensor import ForceSensor, SensorParameters
 from cowalk.sim.sensor_parameters import PRESETS
+from cowalk.sim.wrench import SensorMount
 
 from .timing import best
 
@@ -21,6 +22,11 @@ EVERYTHING = SensorParameters(
     cross_talk=0.02,
     range=100.0,
     resolution=0.01,
+    torque_bias=0.01,
+    torque_drift=0.1,
+    torque_noise_density=0.001,
+    torque_range=100.0,
+    torque_resolution=0.001,
     drop_rate=0.01,
     tare=True,
 )
@@ -31,7 +37,8 @@ def measure() -> list[tuple[str, float, str]]:
     env = parallel_env()
     env.reset(seed=0)
     rates, plant = env.rates, env._plant
-    push = np.random.default_rng(0).normal(0.0, 5.0, (rates.samples, 2))
+    mount = SensorMount((0.05, 0.0, -0.1), (0.0, 0.0, 0.3))
+    load = np.random.default_rng(0).normal(0.0, 5.0, (rates.samples, 6))
 
     def bare() -> None:
         for _ in range(CALLS // 10 * rates.substeps):
@@ -47,7 +54,7 @@ def measure() -> list[tuple[str, float, str]]:
 
             def read(sensor: ForceSensor = sensor) -> None:
                 for _ in range(CALLS):
-                    sensor.measure(push)
+                    sensor.measure(load, mount)
 
             wall[name] = min(wall[name], best(read, 1))
     env.close()

@@ -11,6 +11,7 @@ from cowalk.sim.clearance import Clearance
 from cowalk.sim.env import parallel_env
 from cowalk.sim.eyes import Eyes
 from cowalk.sim.footprint import furniture, walls
+from cowalk.sim.outline import across, rectangle
 from cowalk.sim.path import Path
 from cowalk.sim.plant import BASE_RADIUS, HUMAN_RADIUS
 from cowalk.sim.world import Corridor, Furniture, Obstacle, Pedestrian, World
@@ -20,6 +21,11 @@ from .timing import best
 COUNTS = (0, 5, 20, 50, 100)
 STEPS = 500
 RADII = (BASE_RADIUS, HUMAN_RADIUS)
+BOXES = (
+    (0, rectangle(-0.4, 0.4, -0.25, 0.25)),
+    (1, across(0.45, 0.24)),
+    (2, rectangle(-1.2, 0.0, -0.25, 0.25, underside=0.9)),
+)
 
 
 def crowded(count: int) -> World:
@@ -72,6 +78,7 @@ def measure() -> list[tuple[str, float, str]]:
     env = parallel_env()
     env.reset(seed=0)
     plant, substeps = env._plant, env.rates.substeps
+    bodies, eye = plant.bodies.parts, plant.bodies.eyes["human"]
 
     def bare() -> None:
         for _ in range(STEPS * substeps):
@@ -84,6 +91,11 @@ def measure() -> list[tuple[str, float, str]]:
         for step in range(STEPS):
             measured(0.05 * step, bases[step], humans[step])
 
+    def turn(measured: EngineClearance) -> None:
+        for step in range(STEPS):
+            (x, y, _), yaw = bases[step], 0.3 * math.sin(step / 20.0)
+            measured(0.05 * step, (x, y, yaw), humans[step], (x - 0.4, y, yaw))
+
     def look(eyes: Eyes) -> None:
         for step in range(STEPS):
             eyes.look(bases[step], humans[step], 0.05 * step)
@@ -91,19 +103,21 @@ def measure() -> list[tuple[str, float, str]]:
     rows: list[tuple[str, float, str]] = []
     for count in COUNTS:
         world = crowded(count)
-        engine = EngineClearance(world, RADII)
+        engine, boxes = EngineClearance(world, bodies), EngineClearance(world, BOXES)
         parts = {
             "bare engine steps": bare,
             "distances by the engine": lambda engine=engine: walk(engine),
+            "distances of a box and a load": lambda boxes=boxes: turn(boxes),
             "distances in closed form": lambda world=world: walk(Clearance(world, RADII)),
             "the same in arrays": lambda world=world: walk(ArrayClearance(world)),
-            "sight of one seat": lambda world=world: look(Eyes(world, "human")),
+            "sight of one seat": lambda world=world: look(Eyes(world, "human", eye)),
         }
         wall = dict.fromkeys(parts, math.inf)
         for _ in range(3):
             for name, part in parts.items():
                 wall[name] = min(wall[name], best(part, 1))
         engine.close()
+        boxes.close()
         unit = wall.pop("bare engine steps")
         for name, seconds in wall.items():
             rows.append((f"{count} things: {name}", seconds / STEPS * 1e6, "us"))

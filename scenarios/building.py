@@ -100,8 +100,10 @@ def complete(
         if isinstance(default, _PLAIN):
             given.setdefault(name, default)
         elif dataclasses.is_dataclass(default) and isinstance(given.get(name, {}), Mapping):
-            fields = vars(default)
-            plain = {key: value for key, value in fields.items() if isinstance(value, _PLAIN)}
+            values = {
+                item.name: getattr(default, item.name) for item in dataclasses.fields(default)
+            }
+            plain = {key: value for key, value in values.items() if isinstance(value, _PLAIN)}
             given[name] = plain | given.get(name, {})
     return given
 

@@ -84,6 +84,7 @@ def simulate(omega_bound: Array, horizon: Array, turn_weight: Array) -> dict[str
         observation = Observation(
             twist=twist,
             force=np.zeros((lanes, 1, 2)),
+            wrench=np.zeros((lanes, 1, 6)),
             force_valid=np.ones((lanes, 1)),
             pose=scenario.world.path.relative_pose(pose),
             pose_world=pose,
@@ -91,7 +92,8 @@ def simulate(omega_bound: Array, horizon: Array, turn_weight: Array) -> dict[str
             # The sensor reports the control step that ends now, decided a period ago.
             time=np.full((lanes, 1), now - scenario.rates.period),
         )
-        observation["force"] = human.act(observation)[:, None, :]
+        force = human.act(observation)[:, None, :]
+        observation["force"] = observation["wrench"][..., :2] = force
         twist = automation.act(observation)
         belief = automation.belief()
         record["stubbornness"].append(belief.stubbornness[:, 1])

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any, TypeVar
 
+import numpy as np
 from pydantic import ValidationError
 
 from cowalk.agents.registry import AUTOMATIONS, HUMANS, IMPERFECTIONS
@@ -15,6 +16,7 @@ from cowalk.sim.plants import PLANTS
 from cowalk.sim.registry import Registry
 from cowalk.sim.sensor import ForceSensor
 from cowalk.sim.sensor_parameters import SensorParameters, sensor_preset
+from cowalk.sim.start import blocked_start
 
 from .building import attempt, check_parameters, complete
 from .documents import Document, KeyPath, Problem, dotted
@@ -132,7 +134,27 @@ def _components(data: dict[str, Any], scenario: Scenario | None) -> list[Problem
         problems += check_parameters(REGISTRIES[kind], component, section, SHARED[kind])
     if not problems and scenario is not None:
         problems += _agents(scenario)
+        problems += _start(scenario)
     return problems
+
+
+def _start(scenario: Scenario) -> list[Problem]:
+    """Return why the plant cannot be built, or why its bodies cannot stand at the start."""
+    plant = attempt(PLANTS, scenario.plant, "plant", rates=scenario.rates)
+    if isinstance(plant, Problem):
+        return [plant]
+    world = scenario.world
+    try:
+        state = plant.reset(world, np.random.default_rng(scenario.seed))
+        if not plant.distances(world)(0.0, *state.poses)[1]:
+            return []
+        reason = blocked_start(world, plant.bodies, state.poses, plant.distances)
+        return [Problem(("world", "start"), reason)]
+    except Exception as error:  # a user's class may raise anything
+        reason = f"it cannot be started: {type(error).__name__}: {error}"
+        return [Problem(("plant", "name"), f"plant.name = {scenario.plant.name!r}: {reason}")]
+    finally:
+        plant.close()
 
 
 def _agents(scenario: Scenario) -> list[Problem]:
@@ -148,11 +170,6 @@ def _agents(scenario: Scenario) -> list[Problem]:
         *shared.values(),
         attempt(AUTOMATIONS, seat, "automation", **shared),
     )
-    if scenario.plant.parameters:
-        plant = attempt(PLANTS, scenario.plant, "plant", rates=scenario.rates)
-        if isinstance(plant, Problem):
-            return [plant]
-        plant.close()
     return [part for part in built if isinstance(part, Problem)]
 
 

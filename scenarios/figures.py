@@ -53,7 +53,7 @@ def run_figure(result: RunResult) -> Figure:
         negotiation = result.scenario.automation.negotiation
         if negotiation.dimensions == "both" and _spread(data["est_v"]) > VARIES:
             keys.insert(keys.index("y"), "v")
-        window = window_of(result.scenario.world, data)
+        window = window_of(result, data)
         strip = float(np.clip((WIDTH - 0.8) * window.aspect, 1.0, 4.5))
         heights = [strip, *(0.8 if key == "v" else 1.05 for key in keys)]
         footer = _footer(result)

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 
 from cowalk.sim.footprint import corners, furniture, walls
 from cowalk.sim.motion import Array, arc_displacement, compose
-from cowalk.sim.plant import BASE_RADIUS, HUMAN_RADIUS
 
 from .figures_panels import TRUTH
 from .figures_style import AGREED, AUTOMATION, HUMAN, MUTED, halo, label_unit
 
 if TYPE_CHECKING:
+    from cowalk.sim.outline import Outline
     from cowalk.sim.world import World
 
     from .results import RunResult
@@ -37,6 +37,15 @@ WISHES: tuple[tuple[str, str, dict[str, Any]], ...] = (
 """Prefix of the trace columns, label and look of each wish; the first lies undermost."""
 
 
+POSES = {
+    "base": ("x", "y", "theta"),
+    "human": ("human_x", "human_y", "human_theta"),
+    "load": ("x", "y", "theta"),
+}
+"""Columns of the pose that each outline follows: a load is held by the base."""
+OUTLINE_COLOURS = {"base": AGREED, "human": HUMAN, "load": MUTED}
+
+
 class Window(NamedTuple):
     """The ground that is shown, in m."""
 
@@ -51,10 +60,11 @@ class Window(NamedTuple):
         return (self.top - self.bottom) / (self.right - self.left)
 
 
-def window_of(world: World, data: dict[str, Array]) -> Window:
+def window_of(result: RunResult, data: dict[str, Array]) -> Window:
     """Return the ground that holds the walls, every obstacle, and the bodies all the way."""
+    world = result.scenario.world
     discs = [(o.x, o.y, o.radius) for o in world.obstacles]
-    discs.append((*world.start[:2], BASE_RADIUS))
+    discs.append((*world.start[:2], result.outlines["base"].reach))
     for item in world.furniture:
         discs += [(x, y, 0.0) for x, y in corners(furniture(item))]
     for walker in world.pedestrians:
@@ -62,9 +72,10 @@ def window_of(world: World, data: dict[str, Array]) -> Window:
     for wall in world.walls:
         discs += [(*end, wall.thickness) for end in (wall.start, wall.end)]
     rows = np.array(discs)
-    for x, y, radius in (("x", "y", BASE_RADIUS), ("human_x", "human_y", HUMAN_RADIUS)):
-        known = np.isfinite(data[x]) & np.isfinite(data[y])
-        body = np.stack((data[x], data[y], np.full(len(known), radius)), axis=-1)
+    for name, outline in result.outlines.items():
+        x, y, _ = (data[column] for column in POSES[name])
+        known = np.isfinite(x) & np.isfinite(y)
+        body = np.stack((x, y, np.full(len(known), outline.reach)), axis=-1)
         rows = np.concatenate((rows, body[known]))
     low = np.min(rows[:, :2] - rows[:, 2:], axis=0) - MARGIN
     high = np.max(rows[:, :2] + rows[:, 2:], axis=0) + MARGIN
@@ -95,9 +106,9 @@ def draw_top_view(axis: Axes, result: RunResult, data: dict[str, Array], window:
     )
     horizon = result.scenario.automation.negotiation.horizon
     times, rows, stride = _footprints(data["t"], horizon)
-    _draw_bodies(axis, data, rows)
+    _draw_bodies(axis, result, data, rows)
     _draw_wishes(axis, data, rows[::stride], horizon)
-    _draw_times(axis, data, rows[::stride], times[::stride])
+    _draw_times(axis, result.outlines["base"], data, rows[::stride], times[::stride])
     axis.set_title("Top view")
     label_unit(axis, "$y$ (m)")
     axis.set_xlabel("$x$ (m)", labelpad=1.0)
@@ -163,15 +174,18 @@ def _footprints(t: Array, horizon: float) -> tuple[Array, Rows, int]:
     return times[first], rows, max(1, int(np.ceil(1.3 * horizon / interval)))
 
 
-def _draw_bodies(axis: Axes, data: dict[str, Array], rows: Rows) -> None:
-    base = np.stack((data["x"], data["y"]), axis=-1)[rows]
-    human = np.stack((data["human_x"], data["human_y"]), axis=-1)[rows]
-    for centres, radius, color in ((base, BASE_RADIUS, AGREED), (human, HUMAN_RADIUS, HUMAN)):
-        discs = [Circle((x, y), radius) for x, y in centres if np.isfinite(x + y)]
-        axis.add_collection(
-            PatchCollection(discs, facecolor="none", edgecolor=color, lw=0.7, alpha=0.6, zorder=3),
-            autolim=False,
-        )
+def _draw_bodies(axis: Axes, result: RunResult, data: dict[str, Array], rows: Rows) -> None:
+    poses = {
+        name: np.stack([data[column] for column in POSES[name]], axis=-1)[rows]
+        for name in result.outlines
+    }
+    for name, outline in result.outlines.items():
+        bodies = [
+            Polygon(outline.at(pose)) for pose in poses[name].tolist() if np.isfinite(pose).all()
+        ]
+        look = {"facecolor": "none", "edgecolor": OUTLINE_COLOURS[name], "lw": 0.7, "alpha": 0.6}
+        axis.add_collection(PatchCollection(bodies, zorder=3, **look), autolim=False)
+    base, human = poses["base"][:, :2], poses["human"][:, :2]
     # The arm: which two footprints belong together.
     arms = np.stack((base, human), axis=1)
     axis.add_collection(LineCollection(list(arms), color=MUTED, lw=0.6, zorder=2), autolim=False)
@@ -198,10 +212,13 @@ def _draw_wishes(axis: Axes, data: dict[str, Array], rows: Rows, horizon: float)
             )
 
 
-def _draw_times(axis: Axes, data: dict[str, Array], rows: Rows, times: Array) -> None:
+def _draw_times(
+    axis: Axes, base: Outline, data: dict[str, Array], rows: Rows, times: Array
+) -> None:
     for row, time in zip(rows, times, strict=True):
-        place = data["x"][row], data["y"][row] + BASE_RADIUS
-        if np.isfinite(place).all():
+        pose = data["x"][row], data["y"][row], data["theta"][row]
+        if np.isfinite(pose).all():
+            place = pose[0], float(base.at(pose)[:, 1].max())
             _write(axis, f"{time:g} s", place, above=True)
 
 

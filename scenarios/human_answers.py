@@ -76,6 +76,7 @@ def answer(
             Observation(
                 twist=twist.copy(),
                 force=np.tile(felt, (SAMPLES, 1)),
+                wrench=np.tile((*felt, 0.0, 0.0, 0.0, 0.0), (SAMPLES, 1)),
                 force_valid=np.ones(SAMPLES),
                 pose=pose.copy(),
                 pose_world=pose.copy(),  # the path is the world's x axis

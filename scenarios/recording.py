@@ -51,6 +51,9 @@ WISHES = {
 CURVES: dict[str, tuple[str, str, str]] = {
     "force/forward": ("fx", "forward, N", HUMAN_FORWARD),
     "force/left": ("fy", "left, N", HUMAN),
+    "torque/x": ("sensor_torque_x", "about x, N m", "#CC79A7"),
+    "torque/y": ("sensor_torque_y", "about y, N m", "#009E73"),
+    "torque/z": ("sensor_torque_z", "about z, N m", "#56B4E9"),
     "stubbornness/forward/true": ("true_stubbornness_v", "forward, true", "#F3D08C"),
     "stubbornness/forward/believed": ("est_stubbornness_v", "forward, believed", HUMAN_FORWARD),
     "stubbornness/turning/true": ("true_stubbornness_omega", "turning, true", "#F0BE9F"),
@@ -164,6 +167,7 @@ class Recording:
             layout.TimeSeriesView(origin=origin, name=name)
             for origin, name in (
                 ("force", "Force on the handle"),
+                ("torque", "Torque on the sensor"),
                 ("stubbornness", "The human's stubbornness"),
                 ("utility", "Utility the automation demands"),
                 ("speed", "Speed"),

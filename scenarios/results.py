@@ -12,6 +12,8 @@ import numpy as np
 
 from cowalk.sim.errors import InputError
 from cowalk.sim.motion import Array
+from cowalk.sim.outline import Outline
+from cowalk.sim.plant import PLAIN_BODIES
 
 if TYPE_CHECKING:
     from .expectations import Verdict
@@ -28,6 +30,12 @@ UNITS = {
     "omega_cmd": "rad/s",
     "fx": "N",
     "fy": "N",
+    "sensor_force_x": "N",
+    "sensor_force_y": "N",
+    "sensor_force_z": "N",
+    "sensor_torque_x": "N m",
+    "sensor_torque_y": "N m",
+    "sensor_torque_z": "N m",
     "fx_intent": "N",
     "fy_intent": "N",
     "human_x": "m",
@@ -55,8 +63,11 @@ UNITS = {
 """Every trace column and its unit, in the order of the file.
 
 Row k describes control step k: the state at its end, the decisions in force during it, and
-the measured force averaged over it.
+what was measured averaged over it. `fx` and `fy` are the measured force in base axes,
+`sensor_...` the whole reading in the sensor's axes, about its origin.
 """
+_ADDED = frozenset(name for name in UNITS if name.startswith("sensor_"))
+"""Columns that files written before there were such do not have."""
 
 
 class Trace:
@@ -118,13 +129,23 @@ class Trace:
 
     @classmethod
     def read(cls, file: Path) -> Trace:
-        """Read what `write` wrote."""
+        """Read what `write` wrote; a file from before torque was measured has NaN for ``sensor_``.
+
+        Raises
+        ------
+        InputError
+            If another column is missing.
+        """
         import pyarrow.parquet as pq
 
         table = pq.read_table(file)
+        missing = [name for name in UNITS if name not in {*table.column_names, *_ADDED}]
+        if missing:
+            raise InputError(f"{file}: not a trace: it has no column {', '.join(missing)}")
         trace = cls(max(1, table.num_rows))
         for i, name in enumerate(UNITS):
-            trace._rows[:, i] = table.column(name).to_numpy()
+            known = name in table.column_names
+            trace._rows[:, i] = table.column(name).to_numpy() if known else np.nan
         trace._count = table.num_rows
         return trace
 
@@ -157,6 +178,8 @@ class RunResult:
         One for each expectation of the scenario.
     error : str or None
         Why the run ended before its time, if it did.
+    outlines : dict of str to Outline
+        Of the bodies, for pictures; a load's in base axes, as it was held at the end.
     """
 
     scenario: Scenario
@@ -164,6 +187,7 @@ class RunResult:
     summary: dict[str, Any]
     verdicts: list[Verdict] = field(default_factory=list)
     error: str | None = None
+    outlines: dict[str, Outline] = field(default_factory=lambda: PLAIN_BODIES.outlines)
 
     @property
     def passed(self) -> bool:

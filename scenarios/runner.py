@@ -7,6 +7,7 @@ import platform
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
+from functools import cache
 from importlib.metadata import version
 from typing import Any
 
@@ -14,10 +15,13 @@ import numpy as np
 
 from cowalk.agents.interfaces import Automation, Belief, Human, Situation, Truth
 from cowalk.agents.registry import AUTOMATIONS
+from cowalk.agents.steering import mirrored, mirrored_observation
 from cowalk.estimation.observers import OBSERVERS
 from cowalk.estimation.smoothing import SMOOTHERS
 from cowalk.sim.env import CowalkEnv
 from cowalk.sim.errors import InputError, SimulationError
+from cowalk.sim.motion import world_to_base
+from cowalk.sim.outline import Outline
 
 from .answers import AgentError, of_kind, pair
 from .building import build
@@ -122,7 +126,20 @@ def run(
     if lost is not None and error is None:
         end, error = "aborted", f"{scenario.name}: {lost}"
     wall_time = time.perf_counter() - started
-    return _result(scenario, trace, end, error, wall_time)
+    result = _result(scenario, trace, end, error, wall_time)
+    if len(trace):
+        result.outlines = _outlines(env)
+    return result
+
+
+def _outlines(env: CowalkEnv) -> dict[str, Outline]:
+    """Return the outlines of a plant's bodies, that of a load in base axes."""
+    outlines, state = dict(env.plant.bodies.outlines), env.plant_state
+    if state.load_pose is not None:
+        x, y = world_to_base(state.pose, state.load_pose[:2]).tolist()
+        turn = state.load_pose[2] - state.pose[2]
+        outlines["load"] = outlines["load"].moved((x, y, turn))
+    return outlines
 
 
 def _close(watchers: Sequence[Watcher]) -> str | None:
@@ -159,6 +176,7 @@ def _episode(
     total = env.steps_per_episode
     report_every = 1 if watchers else scenario.rates.control
     infos: dict[str, dict[str, Any]] = {}
+    behind = env.plant.steers_from_behind
     actor = "plant"
     try:
         observations, infos = env.reset(seed=int(env_seed.generate_state(1)[0]))
@@ -170,9 +188,13 @@ def _episode(
         for watcher in watchers:
             watcher.start(scenario, env)
         while env.agents:
+            if behind:
+                observations = {s: mirrored_observation(o) for s, o in observations.items()}
             actor = "human"
             force = human.act(observations["human"])
             pair(force, "act", "the force [fx, fy] in N")
+            if behind:
+                force = mirrored(force)
             truth = _of_truth(human.truth())
             actor = "automation"
             twist = automation.act(observations["automation"])
@@ -237,22 +259,28 @@ def _row(
     clearance: float,
 ) -> tuple[float, ...]:
     """Return a trace row, in the order of `cowalk.scenarios.results.UNITS`."""
-    state, measured = env.plant_state, env.measured_force
+    state, reading = env.plant_state, env.sensor_reading
     force, twist = env.applied
-    fx, fy = (measured.sum(axis=0) / len(measured)).tolist()
+    samples = len(reading.wrench)
     return (
         time_now,
         *state.pose,
         *state.twist,
         *twist,
-        fx,
-        fy,
+        *(reading.force.sum(axis=0) / samples).tolist(),
+        *(reading.wrench.sum(axis=0) / samples).tolist(),
         *force,
         *state.human_pose,
         *truth,
         *belief,
         clearance,
     )
+
+
+@cache
+def _versions() -> dict[str, str]:
+    """Return the versions of what a result depends on: read from files, so only once."""
+    return {name: version(name) for name in ("cowalk", *_VERSIONED)}
 
 
 def _result(
@@ -278,9 +306,6 @@ def _result(
         "real_time_factor": simulated / wall_time if wall_time > 0.0 else math.inf,
         "metrics": metrics(columns, period, scenario.world.path) if len(trace) else {},
         "expectations": [asdict(verdict) for verdict in verdicts],
-        "versions": {
-            "python": platform.python_version(),
-            **{name: version(name) for name in ("cowalk", *_VERSIONED)},
-        },
+        "versions": {"python": platform.python_version(), **_versions()},
     }
     return RunResult(scenario, trace, json_ready(summary), verdicts, error)

@@ -14,7 +14,6 @@ from cowalk.sim import topview
 from cowalk.sim.camera import Camera, level_camera
 from cowalk.sim.errors import InputError, SimulationError
 from cowalk.sim.motion import compose
-from cowalk.sim.plant import BASE_RADIUS
 
 from .figures_style import AUTOMATION, HUMAN
 from .results import UNITS
@@ -121,6 +120,7 @@ class Video:
         plant = env.plant
         if isinstance(plant, Filmed):
             viewer = plant.viewer()
+            outlines = env.plant.bodies.outlines.values()
             for kind, size, place in (
                 ("chase", VIEW, (0, HEADER)),
                 ("top", INSET, (VIEW[0], HEADER)),
@@ -128,15 +128,15 @@ class Video:
                 camera = viewer.camera(kind, *size)
                 seen, upright = viewer.look(camera)
                 image = seen.copy()
-                draw_shadow(image, camera, np.array([row["x"], row["y"]]), BASE_RADIUS)
-                draw_shadow(image, camera, np.array([row["human_x"], row["human_y"]]), 0.3)
+                for outline, pose in zip(outlines, env.plant_state.poses, strict=True):
+                    draw_shadow(image, camera, outline.at(pose))
                 self._draw_wishes(image, camera, row)
                 image.paste(seen, mask=upright)
                 _draw_force(image, camera, row, plant.handle)
                 frame.place(image, *place)
         else:
             camera = level_camera(*topview.window(env.world, env.plant_state, *VIEW), *VIEW)
-            drawn = topview.draw(env.world, env.plant_state, *VIEW, force=False)
+            drawn = topview.draw(env.world, env.plant_state, env.plant.bodies, *VIEW, force=False)
             image = Image.fromarray(drawn)
             self._draw_wishes(image, camera, row)
             _draw_force(image, camera, row, (0.0, 0.0, 0.0))

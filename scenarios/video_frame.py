@@ -98,24 +98,20 @@ def draw_band(
     _fill(image, camera.project(floor), colour, opacity)
 
 
-def draw_shadow(image: Image.Image, camera: Camera, place: Array, radius: float) -> None:
-    """Darken the floor under a body: place (x, y, ...) in m, world axes."""
-    outline = camera.project(radius * _CIRCLE + np.array([place[0], place[1], 0.0]))
-    if not np.isfinite(outline).all():
+def draw_shadow(image: Image.Image, camera: Camera, outline: Array) -> None:
+    """Darken the floor under a body: its outline, shape (n, 2), m, world axes."""
+    corners = camera.project(np.concatenate((outline, np.zeros((len(outline), 1))), axis=-1))
+    if not np.isfinite(corners).all():
         return
-    low, high = outline.min(axis=0), outline.max(axis=0)
+    low, high = corners.min(axis=0), corners.max(axis=0)
     soft = 0.12 * float((high - low).min())
     left, top = (np.floor(low) - 3.0 * soft).astype(int)
     right, bottom = (np.ceil(high) + 3.0 * soft).astype(int)
     if right <= 0 or bottom <= 0 or left >= image.width or top >= image.height:
         return
     mask = Image.new("L", (int(right - left), int(bottom - top)))
-    ImageDraw.Draw(mask).polygon((outline - (left, top)).ravel().tolist(), fill=90)
+    ImageDraw.Draw(mask).polygon((corners - (left, top)).ravel().tolist(), fill=90)
     image.paste("#101418", (int(left), int(top)), mask.filter(ImageFilter.GaussianBlur(soft)))
-
-
-_ANGLES = np.linspace(0.0, 2.0 * math.pi, 32, endpoint=False)
-_CIRCLE = np.stack((np.cos(_ANGLES), np.sin(_ANGLES), np.zeros(32)), axis=-1)
 
 
 class Frame:

@@ -14,6 +14,7 @@ found transcribed elsewhere; the others stand as they are commonly quoted.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -48,6 +49,8 @@ HALF_SHOULDERS, HALF_HIPS = 0.129, 0.0955
 """Half the distance of the acromions, and half the breadth of the hips; shares of the height."""
 GRIP = 0.506
 """Where the hand closes around a handle: at its centre of mass, share of the hand's length."""
+TRUNK_DEPTH = 0.53
+"""Depth of the trunk as a share of its breadth. Inferred: 0.24 m of 0.45 m."""
 YAW_GYRATION = 0.0748
 """Radius of gyration of a standing body about the vertical, share of the height. Inferred: it
 makes 1.2 kg m^2 at 70 kg and 1.75 m."""
@@ -124,6 +127,26 @@ def forearm_with_hand(body: BodyParameters) -> Segment:
         + hand.mass * (hand_centre - centre) ** 2
     )
     return Segment(mass, length, centre, inertia)
+
+
+def girth(body: BodyParameters) -> float:
+    """Return how much wider a body is than one of its height that is built like the default.
+
+    Volume goes with mass, so a cross-section's sides go with the root of mass over height
+    (inferred: trunk breadths are published for average builds).
+    """
+    usual = BodyParameters()
+    return math.sqrt((body.mass / body.height**3) / (usual.mass / usual.height**3))
+
+
+def trunk_breadth(body: BodyParameters) -> float:
+    """Return the breadth of the trunk at the shoulders, m: 0.45 m by default."""
+    return 2.0 * HALF_SHOULDERS * body.height * girth(body)
+
+
+def trunk_depth(body: BodyParameters) -> float:
+    """Return the depth of the trunk, m: 0.24 m by default."""
+    return TRUNK_DEPTH * trunk_breadth(body)
 
 
 def yaw_inertia(body: BodyParameters) -> float:

@@ -20,8 +20,9 @@ from .errors import SimulationError
 from .gait import Gait, GaitParameters
 from .grip import GripParameters
 from .motion import Array
+from .outline import Bodies
 from .parameters import parameters
-from .plant import BASE_RADIUS, HUMAN_RADIUS, PlantState, Rates
+from .plant import PlantState, Rates
 from .robot import RobotParameters
 from .walker import Walker, WalkerParameters
 from .world import World
@@ -54,7 +55,7 @@ class BulletPlant:
     coupling : CouplingParameters
     robot : RobotParameters
     mount : SensorMount
-        Where the force-torque sensor sits (`PlantState.wrench_on_sensor`).
+        Where the force-torque sensor sits: the frame in which it reads.
     gui : bool
         Show the run in a window, at no more than real time; `reset` opens it.
 
@@ -214,29 +215,40 @@ class BulletPlant:
                 )
         x, y, yaw, vx, vy, rate = pair.base_state
         human = pair.human_state
+        load = pair.load_state
         lost = not pair.hands.held
         return PlantState(
             pose=(x, y, yaw),
             twist=(math.cos(yaw) * vx + math.sin(yaw) * vy, rate),
             human_pose=(human[0], human[1], human[2]),
-            force_on_base=wrench[:, :2],
             wrench_on_base=wrench,
             mount=self._mount,
             grip_held=not lost,
             over=lost and self._grip.on_loss == "end",
             time=self._steps * self._rates.period,
+            load_pose=(load[0], load[1], load[2]) if load else None,
         )
 
     def distances(self, world: World) -> EngineClearance:
-        """See `Plant.distances`: by the engine, from the shapes of base and body."""
+        """See `Plant.distances`: by the engine."""
         if self._distances is not None:
             self._distances.close()
-        self._distances = EngineClearance(world, (BASE_RADIUS, HUMAN_RADIUS))
+        self._distances = EngineClearance(world, self.bodies.parts)
         return self._distances
 
     def bare_step(self) -> None:
         """Step the engine alone, nothing driven or read: what a benchmark compares with."""
         engine.stepSimulation(self._pair.client)
+
+    @property
+    def steers_from_behind(self) -> bool:
+        """See `Plant.steers_from_behind`: the stretcher is held at its tail."""
+        return self._pair.load is not None
+
+    @property
+    def bodies(self) -> Bodies:
+        """See `Plant.bodies`: as robot, human and load are built."""
+        return self._pair.bodies
 
     @property
     def handle(self) -> tuple[float, float, float]:

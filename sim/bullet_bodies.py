@@ -32,7 +32,7 @@ class Chain:
     urdf : str
         With a held root link and no fixed joints.
     joints : tuple of str
-        Names of all moving joints, in the order of a state.
+        Names of the joints of a state, in its order; others move as they are moved.
     """
 
     def __init__(self, client: int, urdf: str, joints: tuple[str, ...]) -> None:
@@ -44,6 +44,7 @@ class Chain:
         self.links = {i[12].decode(): joint for joint, i in enumerate(info)}
         """Index of every link by name."""
         self.joints = tuple(index[name] for name in joints)
+        self._passive = tuple(j for name, j in index.items() if name not in joints)
         self.zeros = (0.0,) * len(joints)
         free_body(client, body, -1)
         for joint in range(count):
@@ -56,6 +57,8 @@ class Chain:
         """Set joint positions and rates (at rest without them)."""
         for joint, angle, rate in zip(self.joints, angles, rates or self.zeros, strict=True):
             engine.resetJointState(self.body, joint, angle, rate, self.client)
+        for joint in self._passive:
+            engine.resetJointState(self.body, joint, 0.0, 0.0, self.client)
 
     def apply(self, forces: Any) -> None:
         """Apply joint forces in the next physics step, N and N m."""
@@ -99,11 +102,20 @@ PLANE = ("x", "y", "yaw")
 
 
 class Slab(Chain):
-    """A single rigid body on planar joints, from what it weighs as a whole."""
+    """A single rigid body on planar joints, from what it weighs as a whole.
 
-    def __init__(self, client: int, name: str, rigid: Rigid) -> None:
+    Parameters
+    ----------
+    client : int
+    name : str
+    rigid : Rigid
+    rises : bool
+        Whether its height is free.
+    """
+
+    def __init__(self, client: int, name: str, rigid: Rigid, rises: bool = False) -> None:
         part = link(name, rigid.mass, rigid.centre, rigid.yaw_inertia)
-        super().__init__(client, planar(name, name, part), PLANE)
+        super().__init__(client, planar(name, name, part, rises), PLANE)
         self._centre = rigid.centre
         self.link = self.links[name]
 

@@ -8,6 +8,7 @@ from .bullet_bodies import Base, Slab
 from .bullet_engine import engine
 from .bullet_grip import Wrench
 from .errors import InputError
+from .outline import Outline, rectangle
 from .parameters import Range, require_effect, require_ranges
 from .urdf import Rigid, Vector
 
@@ -18,6 +19,8 @@ RANGES: dict[str, Range] = {
     "width": (0.05, 2.0, "m"),
 }
 """What two can carry (inferred)."""
+THICKNESS = 0.02
+"""Of a load, m."""
 
 
 @dataclass(frozen=True)
@@ -57,6 +60,12 @@ class CouplingParameters:
         return Rigid(self.mass, (x - self.length / 2.0, y, z), inertia, {})
 
 
+def load_outline(parameters: CouplingParameters, height: float) -> Outline:
+    """Return what a load clamped at a height (m) occupies: its origin is the clamp."""
+    half = parameters.width / 2.0
+    return rectangle(-parameters.length, 0.0, -half, half, underside=height - THICKNESS / 2.0)
+
+
 class Load:
     """A load clamped to the base's handle. Its origin is the clamp, it reaches backwards.
 
@@ -67,6 +76,8 @@ class Load:
     base : Base
     handle : (x, y, z)
         Where it is clamped, base axes, m.
+    rises : bool
+        Whether its height is the base's: of a base that stands on a floor.
     """
 
     def __init__(
@@ -75,10 +86,11 @@ class Load:
         client: int,
         base: Base,
         handle: Vector,
+        rises: bool = False,
     ) -> None:
         self._client = client
         self.handle = handle
-        self.slab = Slab(client, "load", parameters.load((0.0, 0.0, handle[2])))
+        self.slab = Slab(client, "load", parameters.load((0.0, 0.0, handle[2])), rises)
         self._clamp = engine.createConstraint(
             base.body,
             base.link,

@@ -74,6 +74,7 @@ class Hands:
         self._bushings = [Bushing(parameters) for _ in handles] if self.yields else []
         self._constraints: list[int] = []
         if not self.yields:
+            rises = f"hand_{body.parameters.sides[0]}" in human.links
             for side, handle, pivot in zip(
                 body.parameters.sides, handles, body.pivots, strict=True
             ):
@@ -82,11 +83,11 @@ class Hands:
                         held.body,
                         held.link,
                         human.body,
-                        human.links[f"forearm_{side}"],
+                        human.links[f"hand_{side}" if rises else f"forearm_{side}"],
                         engine.JOINT_POINT2POINT,
                         (0.0, 0.0, 0.0),
                         held.pivot(handle),
-                        pivot,
+                        (0.0, 0.0, 0.0) if rises else pivot,
                         physicsClientId=client,
                     )
                 )

@@ -17,7 +17,6 @@ WALL_HEIGHT = 0.25
 """m; low, so that one looks over the near wall."""
 CROSS_WALL_HEIGHT = 1.1
 """Of walls across the corridor, m: a doorway must look like one, and be looked over."""
-SOLID_HEIGHT = 0.8
 WALL_PIECE = 2.0
 """Walls are built in pieces, m: what a triangle costs to render is the rectangle around it."""
 MARGIN = 6.0
@@ -56,9 +55,9 @@ class Scenery:
             for piece in pieces(wall, WALL_PIECE):
                 self._block(piece, CROSS_WALL_HEIGHT if across else WALL_HEIGHT, WALL)
         for item in world.furniture:
-            self._furnish(furniture(item), item.height)
+            self._furnish(furniture(item), item.top)
         for thing in world.obstacles:
-            height = SOLID_HEIGHT if thing.solid else 0.004
+            height = thing.top if thing.solid else 0.004
             body = self._place(
                 self._shape(
                     engine.GEOM_CYLINDER,

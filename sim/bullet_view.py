@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from .bullet_coupling import CouplingParameters
+from .bullet_coupling import THICKNESS, CouplingParameters
 from .bullet_engine import connect, disconnect, engine, load
 from .bullet_scene import look_at, photograph
 from .bullet_scenery import Scenery
@@ -104,7 +104,7 @@ class Viewer:
         length, width, height = look.load.length, look.load.width, look.clamp[2]
         pole = engine.createVisualShape(
             engine.GEOM_BOX,
-            halfExtents=(length / 2.0, width / 2.0 - 0.02, 0.01),
+            halfExtents=(length / 2.0, width / 2.0, THICKNESS / 2.0),
             rgbaColor=CLOTH,
             visualFramePosition=(-length / 2.0, 0.0, height),
             physicsClientId=self._client,

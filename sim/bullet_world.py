@@ -1,4 +1,4 @@
-"""Distances in PyBullet: base and body as cylinders among the solid shapes of a world.
+"""Distances in PyBullet: the outlines of bodies among the shapes of a world.
 
 They stand in an engine world of their own, since shapes that may touch would slow every physics
 step down, while distances are asked for once a control step.
@@ -7,18 +7,26 @@ step down, while distances are asked for once a control step.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from .bullet_engine import connect, disconnect, engine
 from .footprint import furniture, walls
+from .heights import WALL_HEIGHT
+from .outline import Outline
 from .world import World
 
 HEIGHT = 2.0
-"""Of every shape, m: bodies and things stand side by side, so distances are level."""
+"""Of every shape, m: they all stand on one floor, so distances are level."""
+MARGIN = 1e-3
+"""By which the engine takes a prism for larger than it is, m."""
 FAR = 1e3
 """Distance up to which the engine is asked to look, m."""
 SLACK = 0.01
 """Added to bounds on distances, m: far above the engine's own error, 0.5 mm."""
+AHEAD = 0.4
+"""How much farther than the nearest body's distance others are looked around, m: less is asked
+more often, more is slower to ask."""
 KEPT = 4
 """Empty engine worlds kept for the next ones: emptying one takes a tenth of opening one."""
 _idle: list[int] = []
@@ -31,8 +39,15 @@ class _Body:
 
     number: int
     index: int
+    swing: float
+    """See `Outline.swing`."""
+    margin: float
+    """What the engine reports too little, m."""
+    meets: list[bool]
+    """Whether a thing of the scene is in its way, or lower than its underside."""
     x: float = 0.0
     y: float = 0.0
+    yaw: float = 0.0
     at_least: float = -math.inf
     at_most: float = math.inf
 
@@ -47,36 +62,73 @@ class EngineClearance:
     Parameters
     ----------
     world : World
-    radii : sequence of float
-        Radius in m of each body (base, human), in the order in which calls get them.
+    parts : sequence of (int, Outline)
+        See `Bodies.parts`: what is measured, and the number of the pose that it goes with.
     """
 
-    def __init__(self, world: World, radii: tuple[float, ...]) -> None:
+    def __init__(self, world: World, parts: Sequence[tuple[int, Outline]]) -> None:
         self._client = _empty_client()
         self._time = 0.0
-        self._bodies = [
-            _Body(number, self._body(self._cylinder(radius))) for number, radius in enumerate(radii)
-        ]
         self._walkers = [
-            (walker, self._body(self._cylinder(walker.radius))) for walker in world.pedestrians
+            (walker, self._body(self._round(walker.radius))) for walker in world.pedestrians
         ]
-        shapes = [(self._cylinder(o.radius), o.x, o.y, 0.0, o.solid) for o in world.obstacles]
-        for box in (*walls(world), *map(furniture, world.furniture)):
+        shapes = [(self._round(o.radius), o.x, o.y, 0.0, o.solid) for o in world.obstacles]
+        tops = [o.top for o in world.obstacles]
+        boxes = [(wall, WALL_HEIGHT) for wall in walls(world)]
+        boxes += [(furniture(item), item.top) for item in world.furniture]
+        for box, top in boxes:
             shape = engine.createCollisionShape(
                 engine.GEOM_BOX,
                 halfExtents=(box.half_length, box.half_width, HEIGHT / 2.0),
                 physicsClientId=self._client,
             )
             shapes.append((shape, box.x, box.y, box.yaw, True))
+            tops.append(top)
         self._solid = [solid for *_, solid in shapes]
         # One body, a link each: the engine is asked once for all of them.
         self._scene = self._scenery(shapes) if shapes else None
+        self._bodies = []
+        for number, outline in parts:
+            shape, margin = self._shape(outline)
+            meets = [top >= outline.underside for top in tops]
+            self._bodies.append(_Body(number, self._body(shape), outline.swing, margin, meets))
 
-    def _cylinder(self, radius: float) -> int:
+    def _round(self, radius: float, x: float = 0.0, y: float = 0.0) -> int:
+        # Not a cylinder: how deep one is inside a long wall the engine sometimes cannot tell.
         shape: int = engine.createCollisionShape(
-            engine.GEOM_CYLINDER, radius=radius, height=HEIGHT, physicsClientId=self._client
+            engine.GEOM_CAPSULE,
+            radius=radius,
+            height=HEIGHT,
+            collisionFramePosition=(x, y, 0.0),
+            physicsClientId=self._client,
         )
         return shape
+
+    def _shape(self, outline: Outline) -> tuple[int, float]:
+        """Return the shape of an outline, and by how much the engine takes it for larger, m."""
+        first, *others = outline.discs
+        if not others:
+            return self._round(first[2], *first[:2]), 0.0
+        if len(others) == 1 and first[2] == others[0][2]:
+            dx, dy = others[0][0] - first[0], others[0][1] - first[1]
+            # A capsule is built along z; lying at half height it is as far as from above.
+            lying = engine.getQuaternionFromEuler((0.0, math.pi / 2.0, math.atan2(dy, dx)))
+            shape = engine.createCollisionShape(
+                engine.GEOM_CAPSULE,
+                radius=first[2],
+                height=math.hypot(dx, dy),
+                collisionFramePosition=(first[0] + dx / 2.0, first[1] + dy / 2.0, 0.0),
+                collisionFrameOrientation=lying,
+                physicsClientId=self._client,
+            )
+            return shape, 0.0
+        corners = [
+            (x, y, z) for x, y in outline.polygon.tolist() for z in (-HEIGHT / 2.0, HEIGHT / 2.0)
+        ]
+        prism = engine.createCollisionShape(
+            engine.GEOM_MESH, vertices=corners, physicsClientId=self._client
+        )
+        return prism, MARGIN
 
     def _body(self, shape: int) -> int:
         body: int = engine.createMultiBody(0.0, shape, physicsClientId=self._client)
@@ -102,7 +154,7 @@ class EngineClearance:
         )
         return body
 
-    def __call__(self, time: float, *positions: tuple[float, ...]) -> tuple[float, bool]:
+    def __call__(self, time: float, *poses: tuple[float, float, float]) -> tuple[float, bool]:
         """See `cowalk.sim.clearance.Distances`."""
         client, place = self._client, engine.resetBasePositionAndOrientation
         passed = abs(time - self._time)
@@ -116,16 +168,19 @@ class EngineClearance:
         # that cannot be the nearest, would be most of the cost.
         nearest, touching = math.inf, False
         for body in sorted(self._bodies, key=_at_most):
-            x, y = positions[body.number][:2]
+            x, y, yaw = poses[body.number]
             moved = math.hypot(x - body.x, y - body.y) + walked + SLACK
-            body.x, body.y = x, y
+            moved += body.swing * abs(yaw - body.yaw)
+            body.x, body.y, body.yaw = x, y, yaw
             body.at_least -= moved
             body.at_most += moved
             if body.at_least > max(nearest, SLACK):
                 continue
-            place(body.index, (x, y, 0.0), UPRIGHT, client)
-            reach = min(max(min(body.at_most, nearest), 0.0) + SLACK, FAR)
-            found, solid = self._closest(body.index, reach)
+            turn = (0.0, 0.0, math.sin(yaw / 2.0), math.cos(yaw / 2.0))
+            place(body.index, (x, y, 0.0), turn, client)
+            # Farther than the nearest: a body that is not it is then left alone for a while.
+            reach = min(max(min(body.at_most + SLACK, nearest + AHEAD), SLACK), FAR)
+            found, solid = self._closest(body, reach)
             touching = touching or solid < 0.0
             if found < math.inf:
                 body.at_least = body.at_most = found
@@ -134,20 +189,27 @@ class EngineClearance:
                 body.at_least = reach
         return nearest, touching
 
-    def _closest(self, body: int, reach: float) -> tuple[float, float]:
+    def _closest(self, body: _Body, reach: float) -> tuple[float, float]:
         """Return the distance to anything and to something solid, infinite beyond the reach."""
         marked = solid = math.inf
-        closest, client = engine.getClosestPoints, self._client
+        closest, client, index, meets = (
+            engine.getClosestPoints,
+            self._client,
+            body.index,
+            body.meets,
+        )
         if self._scene is not None:
-            for point in closest(body, self._scene, reach, physicsClientId=client):
+            for point in closest(index, self._scene, reach, physicsClientId=client):
+                if not meets[point[4]]:
+                    continue
                 if self._solid[point[4]]:
                     solid = min(solid, point[8])
                 else:
                     marked = min(marked, point[8])
         for _, other in self._walkers:
-            for point in closest(body, other, reach, physicsClientId=client):
+            for point in closest(index, other, reach, physicsClientId=client):
                 solid = min(solid, point[8])
-        return min(marked, solid), solid
+        return min(marked, solid) + body.margin, solid + body.margin
 
     def close(self) -> None:
         """Free the world. May be called twice."""

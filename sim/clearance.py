@@ -12,15 +12,15 @@ from .world import World
 class Distances(Protocol):
     """What a plant measures distances with."""
 
-    def __call__(self, time: float, *positions: tuple[float, ...]) -> tuple[float, bool]:
+    def __call__(self, time: float, *poses: tuple[float, float, float]) -> tuple[float, bool]:
         """Return the clearance to anything, m, and whether something solid is touched.
 
         Parameters
         ----------
         time : float
             Since reset, s: pedestrians have moved on.
-        *positions : (x, y, ...)
-            World position of each body, in m; further entries are ignored.
+        *poses : (x, y, theta)
+            World pose of each body: m, m, rad.
 
         Returns
         -------
@@ -54,15 +54,14 @@ class Clearance:
             (b.x, b.y, math.cos(b.yaw), math.sin(b.yaw), b.half_length, b.half_width) for b in boxes
         )
 
-    def __call__(self, time: float, *positions: tuple[float, ...]) -> tuple[float, bool]:
+    def __call__(self, time: float, *poses: tuple[float, float, float]) -> tuple[float, bool]:
         """See `Distances`."""
         discs = self._discs
         if self._pedestrians:
             walking = [(p.state(time), p.radius) for p in self._pedestrians]
             discs += tuple((state[0], state[1], radius) for state, radius in walking)
         marked = solid = math.inf
-        for radius, position in zip(self._radii, positions, strict=True):
-            x, y = position[0], position[1]
+        for radius, (x, y, _) in zip(self._radii, poses, strict=True):
             marked = min(marked, _to_discs(self._marks, x, y, math.inf) - radius)
             nearest = _to_discs(discs, x, y, solid + radius)
             solid = min(solid, _to_boxes(self._boxes, x, y, nearest) - radius)

@@ -15,13 +15,14 @@ from .eyes import Eyes
 from .motion import Array, TwistBounds
 from .observation import OBSTACLE_COLUMNS, OBSTACLE_ROWS, Observation
 from .path import Path
-from .plant import BASE_RADIUS, Plant, PlantState, Rates
+from .plant import Plant, PlantState, Rates
 from .plants import PLANTS
 from .reward import Reward
 from .saved import Saved, checked
 from .seats import SEATS
 from .sensor import ForceSensor, Reading
 from .sensor_parameters import SensorParameters
+from .start import blocked_start
 from .world import Corridor, World
 
 STRAIGHT_CORRIDOR = World(path=Path(((0.0, 0.0), (20.0, 0.0))), corridor=Corridor(width=3.0))
@@ -45,8 +46,8 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
     The human's action is the intended hand force on the base ``[fx, fy]``, base axes, N; the
     automation's is the twist to execute ``[v, omega]``, m/s and rad/s. Actions beyond the
     action space are clipped to it. Both seats perceive the same dict of named boxes: ``twist``
-    (2,), ``force`` (samples, 2), ``force_valid`` (samples,), ``pose`` (3,) relative to the path,
-    ``pose_world`` (3,), ``obstacles`` (8, 6) and ``time`` (1,), as
+    (2,), ``force`` (samples, 2), ``wrench`` (samples, 6), ``force_valid`` (samples,), ``pose``
+    (3,) relative to the path, ``pose_world`` (3,), ``obstacles`` (8, 6) and ``time`` (1,), as
     `cowalk.sim.observation.Observation` explains.
     Spaces do not depend on who sits in the seats.
 
@@ -132,6 +133,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
             {
                 "twist": _box(2),
                 "force": _box(rates.samples, 2),
+                "wrench": _box(rates.samples, 6),
                 "force_valid": _box(rates.samples),
                 "pose": _box(3),
                 "pose_world": _box(3),
@@ -144,9 +146,10 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
             seat: tuple(zip(box.low.tolist(), box.high.tolist(), strict=True))
             for seat, box in self.action_spaces.items()
         }
+        bodies = self._plant.bodies
         self._distances = self._plant.distances(world)
         self._reward = Reward(pace, rates.period)
-        self._eyes = {seat: Eyes(world, seat, BASE_RADIUS) for seat in SEATS}
+        self._eyes = {seat: Eyes(world, seat, bodies.eyes[seat]) for seat in SEATS}
         self._sensor = ForceSensor(sensor, rates.sensor)
         self._felt = np.ones(rates.samples)
         self._generator = np.random.default_rng()
@@ -188,6 +191,8 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
 
         Raises
         ------
+        InputError
+            If a body starts in touch with something solid.
         SimulationError
             If the environment is closed.
         """
@@ -201,9 +206,13 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self._started = True
         self._sensor.reset(sensor_rng)
         self._state = self._plant.reset(self.world, plant_rng)
-        self._reading = self._sensor.measure(self._state.force_on_base)
+        self._reading = self._sensor.measure(self._state.wrench_on_base, self._state.mount)
         state = self._state
-        clearance, _ = self._distances(self._time, state.pose, state.human_pose)
+        clearance, touching = self._distances(self._time, *state.poses)
+        if touching:
+            plant = self._plant
+            why = blocked_start(self.world, plant.bodies, state.poses, plant.distances)
+            raise InputError(why)
         self._info = {"clearance": clearance} | dict.fromkeys(_ENDS, False)
         return self._observations(), {seat: dict(self._info) for seat in SEATS}
 
@@ -236,8 +245,8 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self.applied = force, twist
         state = self._state = self._plant.step(twist, force)
         self._step_count += 1
-        self._reading = self._sensor.measure(state.force_on_base)
-        clearance, collision = self._distances(self._time, state.pose, state.human_pose)
+        self._reading = self._sensor.measure(state.wrench_on_base, state.mount)
+        clearance, collision = self._distances(self._time, *state.poses)
         observations = self._observations()
         goal = self._relative[0] >= self.world.path.length
         ends = zip(_ENDS, (goal, collision, not state.grip_held), strict=True)
@@ -265,7 +274,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         SimulationError
             If there was no `reset` yet, or the environment is closed.
         """
-        self._require("save")
+        self._require("save", opened=True)
         # Copied as one, so that what its parts share stays shared.
         own = copy.deepcopy({name: vars(self)[name] for name in _SAVED})
         return Saved(self._arguments, self._plant.save(), own)
@@ -291,22 +300,22 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self._started = True
         return self._observations()
 
-    def _require(self, what: str) -> None:
-        """Refuse what needs an episode, under way or over."""
-        if self._closed:
+    def _require(self, what: str, opened: bool = False) -> None:
+        """Refuse what needs an episode, under way or over, and perhaps an open environment."""
+        if self._closed and opened:
             raise SimulationError(CLOSED)
         if not self._started:
             raise SimulationError(f"no episode has begun: call reset before {what}")
 
     @property
     def measured_force(self) -> Array:
-        """What the sensor read in the last control step, N, base axes, shape (samples, 2)."""
+        """Planar force that the sensor read in the last step, N, base axes, shape (samples, 2)."""
         self._require("measured_force")
         return self._reading.force
 
     @property
     def sensor_reading(self) -> Reading:
-        """The same with its flags: samples lost on the way, samples at the end of the range."""
+        """All that it read, in its own axes too, with flags for what was lost or out of range."""
         self._require("sensor_reading")
         return self._reading
 
@@ -318,7 +327,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         SimulationError
             If there was no `reset` yet, or the environment is closed.
         """
-        self._require("render")
+        self._require("render", opened=True)
         if self.render_mode == "rgb_array":
             return self._plant.render(640, 480)
         if self._window_needed:
@@ -358,11 +367,13 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self._relative = self.world.path.relative(*state.pose)
         twist, time = np.array(state.twist), np.array([self._time])
         force = {"human": state.force_on_base, "automation": self._reading.force}
+        wrench = {"human": state.wrench_on_base, "automation": self._reading.wrench}
         valid = {"human": self._felt, "automation": self._reading.valid}
         return {
             seat: Observation(
                 twist=twist.copy(),
                 force=force[seat].copy(),
+                wrench=wrench[seat].copy(),
                 force_valid=valid[seat].astype(float),
                 pose=np.array(self._relative),
                 pose_world=np.array(state.pose),

@@ -9,6 +9,7 @@ from typing import TypeVar
 import numpy as np
 
 from .footprint import Rectangle, furniture, outer_walls, wall_ends, walls
+from .heights import PEDESTRIAN_HEIGHT, WALL_HEIGHT
 from .motion import Array
 from .observation import OBSTACLE_COLUMNS, OBSTACLE_ROWS
 from .sight import Pillar, Point, Screen, behind_pillar, behind_screen
@@ -20,34 +21,38 @@ NOTHING = -1
 Occluder = TypeVar("Occluder", Pillar, Screen)
 Pose = tuple[float, float, float]
 Disc = tuple[float, float, float]
-Thing = tuple[float, float, float, int, float, float]
-"""``(x, y, radius, number of the occluder that it is, vx, vy)``, m and m/s."""
+Thing = tuple[float, float, float, float, int, float, float]
+"""``(x, y, radius, height, number of the occluder that it is, vx, vy)``, m and m/s."""
 
 
 class Eyes:
     """The obstacles that a seat perceives: seen by it, in range, and not hidden.
 
-    A thing is seen as soon as its middle or either side of its outline is. Walls, furniture,
-    solid obstacles and pedestrians hide what is behind them. Furniture is perceived as discs in
+    A thing is seen as soon as its upper end is, in the middle or on either side. Walls, furniture,
+    solid obstacles and pedestrians hide what is behind them up to a line over their own upper
+    edge. Furniture is perceived as discs in
     a row that cover it, a doorway as a thin disc at either post, a wall as one at either end.
 
     Parameters
     ----------
     world : World
     seat : str
-        ``"human"``, who sees from the head, or ``"automation"``, from a sensor in front.
-    front : float
-        How far ahead of the base's centre that sensor is, m.
+        ``"human"``, who sees from the head, or ``"automation"``, from a camera on the base.
+    eye : (x, y, z)
+        Where that is, axes of trunk or base, m.
     """
 
-    def __init__(self, world: World, seat: str, front: float = 0.0) -> None:
-        self._human, self._front = seat == "human", front
+    def __init__(self, world: World, seat: str, eye: Point) -> None:
+        self._human, self._eye = seat == "human", eye
         self._range: float = getattr(world.view_range, seat)
         self._things: list[Thing] = []
         self._pillars: list[Pillar] = []
         numbers: dict[Rectangle, int] = {}
-        for box in (*walls(world), *map(furniture, world.furniture)):
+        heights: dict[Rectangle, float] = {}
+        boxes = [(furniture(item), item.top) for item in world.furniture]
+        for box, height in (*((wall, WALL_HEIGHT) for wall in walls(world)), *boxes):
             numbers.setdefault(box, len(numbers))
+            heights[box] = max(height, heights.get(box, 0.0))
         screens = {
             box: Screen(
                 number,
@@ -57,6 +62,7 @@ class Eyes:
                 math.sin(box.yaw),
                 box.half_length,
                 box.half_width,
+                heights[box],
             )
             for box, number in numbers.items()
         }
@@ -67,24 +73,24 @@ class Eyes:
         self._inner = [screen for box, screen in screens.items() if box not in outer]
         count = len(numbers)
         for obstacle in world.obstacles:
-            place = (obstacle.x, obstacle.y, obstacle.radius)
+            place, top = (obstacle.x, obstacle.y, obstacle.radius), obstacle.top
             if obstacle.solid:
-                self._pillars.append(Pillar(count + len(self._pillars), *place))
+                self._pillars.append(Pillar(count + len(self._pillars), *place, top))
             if seat in obstacle.seen_by:
-                self._add([place], self._pillars[-1].number if obstacle.solid else NOTHING)
+                self._add([place], top, self._pillars[-1].number if obstacle.solid else NOTHING)
         for item in world.furniture:
             if seat in item.seen_by:
-                self._add(covering_discs(furniture(item)), numbers[furniture(item)])
+                self._add(covering_discs(furniture(item)), item.top, numbers[furniture(item)])
         for box, place in wall_ends(world):
-            self._add([place], numbers[box])
+            self._add([place], WALL_HEIGHT, numbers[box])
         count += len(self._pillars)
         self._walkers = [
             (walker, count + number, seat in walker.seen_by)
             for number, walker in enumerate(world.pedestrians)
         ]
 
-    def _add(self, discs: list[Disc], number: int) -> None:
-        self._things += [(*disc, number, 0.0, 0.0) for disc in discs]
+    def _add(self, discs: list[Disc], height: float, number: int) -> None:
+        self._things += [(*disc, height, number, 0.0, 0.0) for disc in discs]
 
     def look(self, base_pose: Pose, human_pose: Pose, time: float) -> Array:
         """Return the ``obstacles`` of an `Observation`, shape (8, 6).
@@ -104,9 +110,7 @@ class Eyes:
             return rows
         x, y, theta = base_pose
         cos, sin = math.cos(theta), math.sin(theta)
-        eye = (x + self._front * cos, y + self._front * sin)
-        if self._human:
-            eye = (human_pose[0], human_pose[1])
+        eye = _placed(self._eye, human_pose if self._human else base_pose)
         # Nearest first: what begins farther away than a thing ends cannot hide it.
         near_pillars = _by_distance(eye, [(p.x, p.y, p.radius, p) for p in pillars])
         near_screens = _by_distance(
@@ -118,7 +122,7 @@ class Eyes:
         for _, n in near:
             thing = things[n]
             if self._sees(eye, thing, near_pillars, near_screens):
-                dx, dy, vx, vy = thing[0] - x, thing[1] - y, thing[4], thing[5]
+                dx, dy, vx, vy = thing[0] - x, thing[1] - y, thing[5], thing[6]
                 place = (cos * dx + sin * dy, cos * dy - sin * dx, thing[2])
                 found.append((1.0, *place, cos * vx + sin * vy, cos * vy - sin * vx))
                 if len(found) == OBSTACLE_ROWS:
@@ -131,9 +135,9 @@ class Eyes:
         things, pillars = self._things.copy(), self._pillars.copy()
         for walker, number, seen in self._walkers:
             x, y, vx, vy = walker.state(time)
-            pillars.append(Pillar(number, x, y, walker.radius))
+            pillars.append(Pillar(number, x, y, walker.radius, PEDESTRIAN_HEIGHT))
             if seen:
-                things.append((x, y, walker.radius, number, vx, vy))
+                things.append((x, y, walker.radius, PEDESTRIAN_HEIGHT, number, vx, vy))
         return things, pillars
 
     def _sees(
@@ -143,7 +147,7 @@ class Eyes:
         near_pillars: tuple[list[float], list[Pillar]],
         near_screens: tuple[list[float], list[Screen]],
     ) -> bool:
-        x, y, radius, number, _, _ = thing
+        x, y, radius, height, number, _, _ = thing
         ray_x, ray_y = x - eye[0], y - eye[1]
         away = math.hypot(ray_x, ray_y)
         if away - radius > self._range:
@@ -156,8 +160,8 @@ class Eyes:
             screens = self._screens
         if not (screens or pillars):
             return True
-        hiding: Screen | Pillar | None = behind_pillar(eye, (x, y), pillars, number)
-        hiding = hiding or behind_screen(eye, (x, y), screens, number)
+        hiding: Screen | Pillar | None = behind_pillar(eye, (x, y, height), pillars, number)
+        hiding = hiding or behind_screen(eye, (x, y, height), screens, number)
         if hiding is None:
             return True
         aside = radius / away if away > 0.0 else 0.0
@@ -167,8 +171,14 @@ class Eyes:
             not _hides(hiding, eye, point)
             and not behind_pillar(eye, point, pillars, number)
             and not behind_screen(eye, point, screens, number)
-            for point in ((x + side_x, y + side_y), (x - side_x, y - side_y))
+            for point in ((x + side_x, y + side_y, height), (x - side_x, y - side_y, height))
         )
+
+
+def _placed(eye: Point, pose: Pose) -> Point:
+    x, y, theta = pose
+    cos, sin = math.cos(theta), math.sin(theta)
+    return x + cos * eye[0] - sin * eye[1], y + sin * eye[0] + cos * eye[1], eye[2]
 
 
 def _by_distance(
@@ -177,7 +187,7 @@ def _by_distance(
     """Return how near occluders ``(x, y, reach, occluder)`` may begin, and them, nearest first."""
     if not occluders:
         return [], []
-    x, y = eye
+    x, y, _ = eye
     near = [(math.hypot(o[0] - x, o[1] - y) - o[2], n) for n, o in enumerate(occluders)]
     near.sort()
     return [away for away, _ in near], [occluders[n][3] for _, n in near]

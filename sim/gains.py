@@ -8,7 +8,7 @@ from typing import Any
 
 from .errors import InputError
 from .grip import GripParameters
-from .stability import GROWTH, Bodies, Linear
+from .stability import GROWTH, Linear, Masses
 from .walker import WalkerParameters
 
 RESERVE = 1.25
@@ -64,12 +64,12 @@ class Gains:
         return gains
 
 
-def refuse_unstable(bodies: Bodies, gains: Gains, step: float, held: int) -> None:
+def refuse_unstable(bodies: Masses, gains: Gains, step: float, held: int) -> None:
     """Refuse gains with which the plant would shake itself apart.
 
     Parameters
     ----------
-    bodies : Bodies
+    bodies : Masses
     gains : Gains
     step : float
         Physics step, s.

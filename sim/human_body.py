@@ -5,14 +5,24 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from .anthropometry import SHOULDER_HEIGHT, BodyParameters, yaw_inertia
+from .anthropometry import (
+    EYE_HEIGHT,
+    SHOULDER_HEIGHT,
+    BodyParameters,
+    trunk_breadth,
+    trunk_depth,
+    yaw_inertia,
+)
 from .arm import ELBOW_RANGE, SHOULDER_RANGE, Arm, arm_of
-from .urdf import Vector, hinge, link, planar
+from .outline import Outline, across, bar
+from .urdf import Vector, hinge, link, planar, slider
 
 BESIDE = (0.25, 0.15)
 """Where a single hand rests, ahead of its shoulder and outwards, m: at 1.75 m and a handle at
 `USUAL_HEIGHT`; others bend their elbow as much (inferred: led by hand)."""
 USUAL_HEIGHT = 1.04
+ARM_RADIUS = 0.04
+"""m (inferred)."""
 RELAXED_ELBOW = -1.9
 """Elbow angle of both hands on a bar ahead, rad: midway between straight and fully bent, so that
 the arms can give way to either side (inferred)."""
@@ -55,8 +65,15 @@ class HumanBody:
         arms = (f"{joint}_{side}" for side in self.parameters.sides for joint in ARM_JOINTS)
         return ("x", "y", "yaw", *arms)
 
-    def urdf(self) -> str:
-        """Return the body as a URDF without pictures: nothing in it but what moves."""
+    def urdf(self, hands_rise: bool = False) -> str:
+        """Return the body as a URDF without pictures: nothing in it but what moves.
+
+        Parameters
+        ----------
+        hands_rise : bool
+            Whether a hand follows its handle up and down (link ``hand_left``, joint
+            ``lift_left``), so that it neither carries nor holds down what stands on a floor.
+        """
         body = self.parameters
         held = sum(arm.upper.mass + arm.fore.mass for arm in self.arms)
         parts = [link("trunk", body.mass - held, (0.0, 0.0, 0.57 * body.height), yaw_inertia(body))]
@@ -78,10 +95,18 @@ class HumanBody:
             parts.append(
                 hinge(f"elbow_{side}", f"upper_arm_{side}", f"forearm_{side}", elbow, limits[1])
             )
+            if hands_rise:
+                tip = (fore.length, 0.0, -fore.drop)
+                parts.append(link(f"hand_{side}", WEIGHTLESS, (0.0, 0.0, 0.0), WEIGHTLESS))
+                parts.append(
+                    slider(f"lift_{side}", f"forearm_{side}", f"hand_{side}", "0 0 1", tip)
+                )
         return planar("human", "trunk", "".join(parts))
 
 
 ARM_JOINTS = ("shoulder", "elbow")
+WEIGHTLESS = 1e-3
+"""Mass (kg) and inertia (kg m^2) of what the engine needs to have some: it weighs 0.01 N."""
 
 
 def human_body(parameters: BodyParameters, handles: tuple[Vector, ...]) -> HumanBody:
@@ -122,6 +147,25 @@ def human_body(parameters: BodyParameters, handles: tuple[Vector, ...]) -> Human
     body = HumanBody(parameters, arms, pivots, place, rest)
     _ = body.posture  # refuses what is out of reach, before anything is built
     return body
+
+
+def trunk_outline(parameters: BodyParameters) -> Outline:
+    """Return what the trunk occupies; free arms give way, legs are pictures."""
+    return across(trunk_breadth(parameters), trunk_depth(parameters))
+
+
+def arm_outlines(human: HumanBody, handles: tuple[Vector, ...]) -> tuple[Outline, ...]:
+    """Return what the arms occupy that hold given handles, from shoulder to hand, trunk axes."""
+    shoulders = SHOULDER_HEIGHT * human.parameters.height
+    return tuple(
+        bar(arm.shoulder, rest, ARM_RADIUS, min(shoulders, handle[2]) - ARM_RADIUS)
+        for arm, rest, handle in zip(human.arms, human.rest, handles, strict=True)
+    )
+
+
+def eye(parameters: BodyParameters) -> Vector:
+    """Return where a human sees from, trunk axes, m."""
+    return 0.0, 0.0, EYE_HEIGHT * parameters.height
 
 
 def _at(arm: Arm, scale: float) -> tuple[float, float]:

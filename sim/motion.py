@@ -26,7 +26,9 @@ def sinc(angle: ArrayLike) -> Array:
     -------
     ndarray, shape (...)
     """
-    return np.sinc(np.asarray(angle, dtype=float) / np.pi)
+    angle = np.asarray(angle, dtype=float)
+    apart = np.where(angle == 0.0, 1e-20, angle)
+    return np.asarray(np.sin(apart) / apart)
 
 
 def wrap_angle(angle: ArrayLike) -> Array:

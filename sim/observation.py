@@ -22,8 +22,13 @@ class Observation(TypedDict):
     force : ndarray, shape (..., samples, 2)
         Force of the human on the base at every sensor sample of the last control step, base
         axes, N. The automation gets the sensor's reading, the human feels the force itself.
+    wrench : ndarray, shape (..., samples, 6)
+        Force (N) and torque (N m) of the human on the base at the same samples. The automation
+        gets the sensor's reading in the sensor's axes, about its origin; the human feels the
+        wrench itself in base axes, about the handle.
     force_valid : ndarray, shape (..., samples)
-        1 where the sample arrived, 0 where it was lost and ``force`` repeats the one before.
+        1 where the sample arrived, 0 where it was lost and ``force`` and ``wrench`` repeat the one
+        before.
     pose : ndarray, shape (..., 3)
         Base pose relative to the path: station m, lateral offset m (left positive), heading rad.
     pose_world : ndarray, shape (..., 3)
@@ -37,6 +42,7 @@ class Observation(TypedDict):
 
     twist: Array
     force: Array
+    wrench: Array
     force_valid: Array
     pose: Array
     pose_world: Array

@@ -11,21 +11,27 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from .anthropometry import EYE_HEIGHT, BodyParameters
 from .clearance import Distances
 from .errors import InputError
 from .motion import Array
+from .outline import Bodies, disc
 from .world import World
-from .wrench import SensorMount, in_sensor_frame
+from .wrench import AT_HANDLE, SensorMount, in_sensor_frame
 
 BASE_RADIUS = 0.28
-"""Radius of the disc that bounds the mobile base, m."""
+"""Radius of the disc that bounds the mobile base that ships, m."""
 HUMAN_RADIUS = 0.22
-"""Radius of the disc that bounds the human's trunk, m (half of a shoulder breadth of 0.44 m)."""
+"""Radius of the disc that stands for a human's trunk, m (half of a shoulder breadth of 0.44 m)."""
+CAMERA = (0.12, 0.0, 1.18)
+"""Where the mobile base that ships sees from, base axes, m (inferred)."""
+PLAIN_BODIES = Bodies(
+    {"base": disc(BASE_RADIUS), "human": disc(HUMAN_RADIUS)},
+    {"automation": CAMERA, "human": (0.0, 0.0, EYE_HEIGHT * BodyParameters.height)},
+)
+"""Two discs, for whoever knows nothing more of the bodies."""
 HUMAN_PLACE = (-0.10, -0.65, 0.0)
 """Pose at which the human walks beside the base, in base axes: m, m, rad."""
-
-AT_HANDLE = SensorMount()
-"""A sensor whose frame is the base's, moved to the handle."""
 
 
 def _ratio(fast_name: str, fast: int, slow_name: str, slow: int) -> int:
@@ -86,12 +92,10 @@ class PlantState:
         Executed twist of the base at the end of the step, base axes: m/s, rad/s.
     human_pose : (x, y, theta)
         Pose of the human's trunk, world axes: m, m, rad.
-    force_on_base : ndarray, shape (samples, 2)
-        Force of the human on the base in base axes, N, at every sensor instant of the step,
-        oldest first, before the sensor model. A fresh array each step.
-    wrench_on_base : ndarray, shape (samples, 6), optional
-        Force (N) and torque about the handle (N m) of the human on the base, base axes, at the
-        same instants; None where the plant knows no torque.
+    wrench_on_base : ndarray, shape (samples, 6)
+        Force (N) and torque about the handle (N m) of the human on the base, base axes, at every
+        sensor instant of the step, oldest first, before the sensor. A fresh array each step.
+        What a plant does not know is 0: one that moves points has no torque.
     mount : SensorMount
         Where the sensor sits.
     grip_held : bool
@@ -100,30 +104,50 @@ class PlantState:
         Whether the plant asks for the end of the episode, having lost its grip.
     time : float
         Since reset, s.
+    load_pose : (x, y, theta), optional
+        Of what the two carry, world axes: m, m, rad.
     """
 
     pose: tuple[float, float, float]
     twist: tuple[float, float]
     human_pose: tuple[float, float, float]
-    force_on_base: Array
-    wrench_on_base: Array | None = None
+    wrench_on_base: Array
     mount: SensorMount = AT_HANDLE
     grip_held: bool = True
     over: bool = False
     time: float = 0.0
+    load_pose: tuple[float, float, float] | None = None
+
+    @property
+    def poses(self) -> tuple[tuple[float, float, float], ...]:
+        """Of base, human and, where there is one, load: in the order of `Bodies.outlines`."""
+        if self.load_pose is None:
+            return self.pose, self.human_pose
+        return self.pose, self.human_pose, self.load_pose
+
+    @property
+    def force_on_base(self) -> Array:
+        """The planar force of the human on the base, base axes, N, shape (samples, 2)."""
+        return self.wrench_on_base[:, :2]
 
     @property
     def wrench_on_sensor(self) -> Array:
         """The wrench about the sensor's origin, sensor axes, shape (samples, 6), N and N m."""
-        wrench = self.wrench_on_base
-        if wrench is None:
-            wrench = np.zeros((len(self.force_on_base), 6))
-            wrench[:, :2] = self.force_on_base
-        return in_sensor_frame(wrench, self.mount)
+        return in_sensor_frame(self.wrench_on_base, self.mount)
 
 
 class Plant(Protocol):
     """What `cowalk.sim.env` steps. Built with `Rates`; holds no random state of its own."""
+
+    @property
+    def steers_from_behind(self) -> bool:
+        """Whether a push to the left asks for a turn to the right, as at the tail of a trailer."""
+        ...
+
+    @property
+    def bodies(self) -> Bodies:
+        """What it moves: outlines, and where the seats see from. It never changes."""
+        ...
 
     def reset(self, world: World, rng: np.random.Generator) -> PlantState:
         """Put base and human at the world's start, at rest, and return the state there."""
@@ -157,7 +181,10 @@ class Plant(Protocol):
         ...
 
     def distances(self, world: World) -> Distances:
-        """Return what measures how far base and human are from everything in a world."""
+        """Return what measures how far its bodies are from everything in a world.
+
+        It is called with the time and `PlantState.poses`, and is good until asked for again.
+        """
         ...
 
     def render(self, width: int, height: int) -> np.ndarray:

@@ -8,8 +8,11 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from .errors import InputError
+from .outline import Outline, disc
+from .plant import BASE_RADIUS, CAMERA
 from .registry import did_you_mean
 from .urdf import Rigid, Vector, lump, mirrored, read_robot
+from .urdf_outline import robot_outline
 
 HANDLES_APART = 0.44
 """Distance of the two hands on one handle bar, m (inferred: shoulder breadth)."""
@@ -26,10 +29,14 @@ class RobotParameters:
         joints are locked at zero. None is the robot that ships.
     handle : str
         Name of the link at whose origin it is held.
+    camera : str
+        Name of the link at whose origin it sees. A robot without a link "camera" sees from the
+        front of its outline, as high up as its shapes reach.
     """
 
     urdf: str | None = None
     handle: str = "handle"
+    camera: str = "camera"
 
 
 @dataclass(frozen=True)
@@ -45,12 +52,18 @@ class Robot:
         Where each hand holds, in order left, right.
     urdf : str
         Its pictures, mesh paths made absolute.
+    outline : Outline
+        Around its collision shapes, or if it has none around what is visible of it.
+    camera : (x, y, z)
+        Where it sees from, base axes, m.
     """
 
     rigid: Rigid
     handle: Vector
     handles: tuple[Vector, ...]
     urdf: str
+    outline: Outline
+    camera: Vector
 
 
 def robot_of(parameters: RobotParameters, hand: str, coupling: str) -> Robot:
@@ -59,7 +72,7 @@ def robot_of(parameters: RobotParameters, hand: str, coupling: str) -> Robot:
     Raises
     ------
     InputError
-        If the file or the handle link is missing, or the robot has no mass.
+        If the file or a named link is missing, a mesh cannot be read, or the robot has no mass.
     """
     if parameters.urdf is None:
         rear = hand == "both" or coupling == "stretcher"
@@ -71,14 +84,22 @@ def robot_of(parameters: RobotParameters, hand: str, coupling: str) -> Robot:
         root = read_robot(Path(parameters.urdf))
         _absolute_meshes(root, Path(parameters.urdf).resolve().parent)
     rigid = lump(root)
-    if parameters.handle not in rigid.places:
-        known = sorted(rigid.places)
-        raise InputError(
-            f"robot.handle: no link {parameters.handle!r}; {did_you_mean(parameters.handle, known)}"
-        )
-    handle = rigid.places[parameters.handle]
+    handle = _place_of(rigid, "handle", parameters.handle)
     handles = two_hands(handle) if hand == "both" else (handle,)
-    return Robot(rigid, handle, handles, ElementTree.tostring(root, encoding="unicode"))
+    # A robot without any shape is taken for one as large as that which ships.
+    outline, top = robot_outline(root) or (disc(BASE_RADIUS), CAMERA[2])
+    camera = (outline.box[1], 0.0, top)
+    if parameters.camera != RobotParameters.camera or parameters.camera in rigid.places:
+        camera = _place_of(rigid, "camera", parameters.camera)
+    looks = ElementTree.tostring(root, encoding="unicode")
+    return Robot(rigid, handle, handles, looks, outline, camera)
+
+
+def _place_of(rigid: Rigid, parameter: str, name: str) -> Vector:
+    if name not in rigid.places:
+        hint = did_you_mean(name, sorted(rigid.places))
+        raise InputError(f"robot.{parameter}: no link {name!r}; {hint}")
+    return rigid.places[name]
 
 
 def two_hands(handle: Vector) -> tuple[Vector, Vector]:
@@ -90,5 +111,10 @@ def two_hands(handle: Vector) -> tuple[Vector, Vector]:
 def _absolute_meshes(root: ElementTree.Element, folder: Path) -> None:
     for mesh in root.iter("mesh"):
         name = mesh.get("filename", "")
-        if not name.startswith("package://"):
+        if name.startswith("package://"):
+            # Named from the folder that holds the package, which the file itself lies in.
+            inside = name.removeprefix("package://")
+            holders = (place for place in (folder, *folder.parents) if (place / inside).is_file())
+            mesh.set("filename", str(next(holders, folder) / inside))
+        else:
             mesh.set("filename", str(folder / name.removeprefix("file://")))

@@ -8,13 +8,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import InputError
 from .motion import Array
+from .sensor_channels import CHANNELS, FORCES, TORQUES, channels, coupling
 from .sensor_filter import LowPass, Offset, noise_deviation
 from .sensor_parameters import SensorParameters
+from .wrench import AT_HANDLE, SensorMount, in_base_frame, in_sensor_frame
 
 __all__ = ["ForceSensor", "Reading", "SensorParameters"]
 
+Flags = NDArray[np.bool_]
 TARE_TIME = 0.5
 """Time for which the unloaded sensor is averaged at the start of an episode, s."""
 
@@ -24,8 +26,11 @@ class Reading(NamedTuple):
 
     Attributes
     ----------
-    force : ndarray, shape (n, channels)
-        N, oldest sample first.
+    force : ndarray, shape (n, 2)
+        Planar force in base axes that follows from the wrench and the sensor's known mount, N,
+        oldest sample first.
+    wrench : ndarray, shape (n, 6)
+        Force (N) and torque about the sensor's origin (N m), sensor axes: what the sensor reads.
     valid : ndarray of bool, shape (n,)
         False where the latest conversion was lost and an older one is read again.
     saturated : ndarray of bool, shape (n,)
@@ -33,52 +38,48 @@ class Reading(NamedTuple):
     """
 
     force: Array
-    valid: NDArray[np.bool_]
-    saturated: NDArray[np.bool_]
+    wrench: Array
+    valid: Flags
+    saturated: Flags
 
 
 class ForceSensor:
-    """Turns true forces into readings, block by block, with memory in between.
+    """Turns true forces and torques into readings, block by block, with memory in between.
 
     Parameters
     ----------
     parameters : SensorParameters
     sample_rate : int
         Rate of the samples that come in and go out, Hz.
-    channels : int
-        Number of channels.
 
     Raises
     ------
     InputError
-        If a parameter is given for another number of channels.
+        If a list or a matrix is not made for six channels.
     """
 
-    def __init__(
-        self, parameters: SensorParameters, sample_rate: int = 240, channels: int = 2
-    ) -> None:
+    def __init__(self, parameters: SensorParameters, sample_rate: int = 240) -> None:
         p = self._parameters = parameters
         self._exact = p == SensorParameters()
-        self._coupling = _coupling(p.cross_talk, channels)
-        self._low_pass = LowPass.below_nyquist(p.low_pass, sample_rate, channels)
+        self._coupling = coupling(p)
+        self._low_pass = LowPass.below_nyquist(p.low_pass, sample_rate, CHANNELS)
         self._offset = Offset(
-            _per_channel("bias", p.bias, channels),
-            _per_channel("drift", p.drift, channels) / (3600.0 * sample_rate),
-            noise_deviation(
-                _per_channel("noise_density", p.noise_density, channels), p.low_pass, sample_rate
-            ),
+            channels(p, "bias"),
+            channels(p, "drift") / (3600.0 * sample_rate),
+            noise_deviation(channels(p, "noise_density"), p.low_pass, sample_rate),
             self._low_pass,
         )
+        self._range = channels(p, "range")
+        self._limited = min(p.range, p.torque_range) < math.inf
+        self._converters = _converters(channels(p, "resolution"))
         self._tare_samples = round(TARE_TIME * sample_rate)
         self._delay = round(p.latency * sample_rate)
         self._ages = _ages(p.rate, sample_rate)
         self._held = self._delay + int(self._ages.max())
         """How many samples back a reading may reach."""
-        self._square = p.range**2
-        self._channels = channels
         self._sources: dict[tuple[int, int], NDArray[np.int_]] = {}
         self._zeros: dict[int, Array] = {}
-        self._uneventful: dict[int, tuple[NDArray[np.bool_], NDArray[np.bool_]]] = {}
+        self._uneventful: dict[int, tuple[Flags, Flags]] = {}
         self.reset(np.random.default_rng(0))
 
     def reset(self, rng: np.random.Generator) -> None:
@@ -95,12 +96,11 @@ class ForceSensor:
         unloaded = max(self._tare_samples, self._held, 1)
         self._count = 0
         self._saturated: list[int] = []
-        self._zero, self._zeros = np.zeros(self._channels), {}
-        before = self._convert(np.zeros((unloaded, self._channels)))
+        self._zero, self._zeros = np.zeros(CHANNELS), {}
+        before = self._convert(np.zeros((unloaded, CHANNELS)))
         if p.tare:
             self._zero = before[-self._tare_samples :].mean(axis=0)
-            if p.resolution > 0.0:
-                self._zero = _quantise(self._zero, p.resolution)
+            self._quantise(self._zero)
             self._zeros = {}
             before -= self._zero
         self._history = before[unloaded - self._held :]
@@ -108,62 +108,79 @@ class ForceSensor:
         self._lost: list[int] = []
         self._next_loss = self._count + self._gap() - 1
 
-    def measure(self, force_on_base: Array) -> Reading:
+    def measure(self, wrench_on_base: Array, mount: SensorMount = AT_HANDLE) -> Reading:
         """Return the readings for a block of samples.
 
         Parameters
         ----------
-        force_on_base : ndarray, shape (n, channels)
-            Force of the human on the base, base axes, N, oldest sample first.
+        wrench_on_base : ndarray, shape (n, 6)
+            Force (N) and torque about the handle (N m) of the human on the base, base axes,
+            oldest sample first.
+        mount : SensorMount
+            Where the sensor sits.
 
         Returns
         -------
         Reading
             Its force is the very input where the sensor is without faults.
         """
-        n = len(force_on_base)
+        n = len(wrench_on_base)
         flags = self._uneventful.get(n)
         if flags is None:
             flags = self._uneventful[n] = np.ones(n, dtype=bool), np.zeros(n, dtype=bool)
             for flag in flags:
                 flag.flags.writeable = False
+        wrench = in_sensor_frame(wrench_on_base, mount)
         if self._exact:
-            return Reading(force_on_base, *flags)
-        first = self._count
-        force = self._convert(force_on_base)
+            return Reading(wrench_on_base[:, :2], wrench, *flags)
+        wrench, valid, saturated = self._sampled(wrench, *flags)
+        return Reading(in_base_frame(wrench, mount)[:, :2], wrench, valid, saturated)
+
+    def _sampled(self, wrench: Array, valid: Flags, saturated: Flags) -> tuple[Array, Flags, Flags]:
+        """Return what has arrived by each sample; the flags as given if all is well."""
+        n, first = len(wrench), self._count
+        wrench = self._convert(wrench)
         while self._next_loss < self._count:
             self._lost.append(self._next_loss)
             self._next_loss += self._gap()
         if self._held:
-            force = np.concatenate((self._history, force))
-            self._history = force[n:]
+            wrench = np.concatenate((self._history, wrench))
+            self._history = wrench[n:]
         source = self._source((first - self._delay) % len(self._ages), n)
         if self._lost or self._saturated:
-            return self._eventful(force, source, first - self._held)
+            return self._eventful(wrench, source, first - self._held)
         if self._held:
-            force = force.take(source, axis=0)
-        self._last, self._last_saturated = force[-1], False
-        return Reading(force, *flags)
+            wrench = wrench.take(source, axis=0)
+        self._last, self._last_saturated = wrench[-1], False
+        return wrench, valid, saturated
 
-    def _convert(self, force: Array) -> Array:
+    def _convert(self, wrench: Array) -> Array:
         """Return what the converter puts out at every sample, a fresh array."""
-        p = self._parameters
-        n = len(force)
-        value = force.dot(self._coupling) if self._coupling is not None else force
+        n = len(wrench)
+        value = wrench.dot(self._coupling) if self._coupling is not None else wrench
         if self._low_pass is not None:
             value = self._low_pass(value)
         value = value + self._offset.take(n)
-        # No sample is beyond the range if the sum of their squares is not.
-        if self._square < math.inf and np.vdot(value, value) > self._square:
-            beyond = (np.abs(value) > p.range).any(axis=1)
-            self._saturated += (np.flatnonzero(beyond) + self._count).tolist()
-            np.clip(value, -p.range, p.range, out=value)
+        if self._limited:
+            # No sample is beyond its range if the sum of their squares, in ranges, is not.
+            shares = value / self._range
+            if np.vdot(shares, shares) > 1.0:
+                beyond = (np.abs(shares) > 1.0).any(axis=1)
+                self._saturated += (np.flatnonzero(beyond) + self._count).tolist()
+                np.clip(value, -self._range, self._range, out=value)
         self._count += n
-        if p.resolution > 0.0:
-            value = _quantise(value, p.resolution)
-        if p.tare:
+        self._quantise(value)
+        if self._parameters.tare:
             value -= self._zero_rows(n)
         return value
+
+    def _quantise(self, value: Array) -> None:
+        """Round every channel to whole steps, in place."""
+        for part, step in self._converters:
+            steps = value[..., part]
+            steps /= step
+            np.rint(steps, out=steps)
+            steps *= step
 
     def _zero_rows(self, n: int) -> Array:
         """Return the tare once a sample: rows added to rows take half the time of broadcasting."""
@@ -185,11 +202,13 @@ class ForceSensor:
             source = self._sources[phase, n] = self._held - self._delay + np.arange(n) - ages
         return source
 
-    def _eventful(self, force: Array, source: NDArray[np.int_], first: int) -> Reading:
+    def _eventful(
+        self, wrench: Array, source: NDArray[np.int_], first: int
+    ) -> tuple[Array, Flags, Flags]:
         """Return a block with lost or saturated samples; ``first`` counts the first row."""
         missing = _among(source + first, self._lost)
         newest = np.maximum.accumulate(np.where(missing, -1, source))
-        arrived = force[newest]
+        arrived = wrench[newest]
         saturated = _among(newest + first, self._saturated)
         none_yet = newest < 0
         if none_yet[0]:
@@ -198,10 +217,10 @@ class ForceSensor:
         self._lost = [k for k in self._lost if k >= oldest]
         self._saturated = [k for k in self._saturated if k >= oldest]
         self._last, self._last_saturated = arrived[-1], bool(saturated[-1])
-        return Reading(arrived, ~missing, saturated)
+        return arrived, ~missing, saturated
 
 
-def _among(samples: NDArray[np.int_], few: list[int]) -> NDArray[np.bool_]:
+def _among(samples: NDArray[np.int_], few: list[int]) -> Flags:
     """Return which samples are among a few (`numpy.isin` takes 30 us to sort a dozen)."""
     found = np.zeros(len(samples), dtype=bool)
     for sample in few:
@@ -209,34 +228,11 @@ def _among(samples: NDArray[np.int_], few: list[int]) -> NDArray[np.bool_]:
     return found
 
 
-def _quantise(value: Array, step: float) -> Array:
-    """Round to whole steps, in place."""
-    value /= step
-    np.rint(value, out=value)
-    value *= step
-    return value
-
-
-def _per_channel(name: str, value: float | tuple[float, ...], channels: int) -> Array:
-    array = np.asarray(value, dtype=float)
-    if array.ndim and array.shape != (channels,):
-        raise InputError(
-            f"sensor.{name} has {array.size} entries; give one number, or {channels}, one a channel"
-        )
-    return np.broadcast_to(array, (channels,)).copy()
-
-
-def _coupling(cross_talk: float | tuple[tuple[float, ...], ...], channels: int) -> Array | None:
-    """Return what a row of forces is multiplied with, or None where nothing changes."""
-    shares = np.asarray(cross_talk, dtype=float)
-    if not shares.ndim:
-        shares = float(cross_talk) * (1.0 - np.eye(channels))  # type: ignore[arg-type]
-    if shares.shape != (channels, channels):
-        raise InputError(
-            f"sensor.cross_talk has shape {shares.shape}; give one number, or {channels} rows "
-            f"of {channels}"
-        )
-    return np.eye(channels) + shares.T if shares.any() else None
+def _converters(resolution: Array) -> list[tuple[slice, Array]]:
+    """Return which channels are rounded, and to which steps."""
+    if resolution.all():
+        return [(slice(0, CHANNELS), resolution)]
+    return [(part, resolution[part]) for part in (FORCES, TORQUES) if resolution[part].all()]
 
 
 def _ages(rate: float, sample_rate: int) -> NDArray[np.int_]:

@@ -22,7 +22,7 @@ def noise_deviation(density: Array, low_pass: float, sample_rate: float) -> Arra
     Parameters
     ----------
     density : ndarray, shape (channels,)
-        One-sided density, N/sqrt(Hz).
+        One-sided density, N/sqrt(Hz) or N m/sqrt(Hz).
     low_pass : float
         -3 dB frequency, Hz; 0 is none.
     sample_rate : float

@@ -17,11 +17,12 @@ LONGEST_LATENCY = 1.0
 
 @dataclass(frozen=True)
 class SensorParameters:
-    """A sensor without faults unless told otherwise.
+    """A six-axis sensor without faults unless told otherwise.
 
-    The force passes, in this order: cross-talk, zero offset (bias and drift) and noise, low-pass,
-    saturation, quantisation, the sensor's own conversions, tare, latency, lost samples. What is
-    given per channel is one number for all channels, or a list with one for each.
+    The load passes, in this order: cross-talk, zero offset (bias and drift) and noise, low-pass,
+    saturation, quantisation, the sensor's own conversions, tare, latency, lost samples. Bias,
+    drift and noise are one number for all three axes of the sensor, or a list for x, y and z (of
+    two for x and y). What starts with ``torque_`` is for the torques, the same without for forces.
 
     Parameters
     ----------
@@ -30,21 +31,23 @@ class SensorParameters:
         sample of `cowalk.sim.plant.Rates.sensor`, as does any rate above that.
     latency : float
         Delay from conversion to reading, s, rounded to whole samples.
-    bias : float or list
-        Constant zero offset, N.
-    drift : float or list
-        Slope of the zero offset, N/h.
-    noise_density : float or list
-        One-sided density of white noise ahead of the low-pass, N/sqrt(Hz).
+    bias, torque_bias : float or list
+        Constant zero offset, N and N m.
+    drift, torque_drift : float or list
+        Slope of the zero offset, N/h and N m/h.
+    noise_density, torque_noise_density : float or list
+        One-sided density of white noise ahead of the low-pass, N/sqrt(Hz) and N m/sqrt(Hz).
     low_pass : float
         -3 dB frequency of a second-order Butterworth low-pass, Hz; 0 is none.
     cross_talk : float or list of lists
-        Share of each other channel's force that a channel reads; or the matrix of shares, row by
-        row for the reading channels, its diagonal being errors of gain.
-    range : float
-        Largest reading either way, N, before the tare is taken off.
-    resolution : float
-        Step between readings, N; 0 is continuous.
+        Share of full scale that every channel reads for a full scale of each other one (without
+        ranges: of each other force for a force, of each other torque for a torque). Or the matrix
+        of what a channel reads (rows) for a unit of each (columns), forces x, y, z then torques
+        x, y, z, its diagonal being errors of gain; of 6, 3 or 2 rows, the rest being 0.
+    range, torque_range : float
+        Largest reading either way, N and N m, before the tare is taken off.
+    resolution, torque_resolution : float
+        Step between readings, N and N m; 0 is continuous.
     drop_rate : float
         Probability that a conversion is lost on its way; the last one is then read again, and
         flagged.
@@ -66,6 +69,11 @@ class SensorParameters:
     cross_talk: float | tuple[tuple[float, ...], ...] = 0.0
     range: float = math.inf
     resolution: float = 0.0
+    torque_bias: float | tuple[float, ...] = 0.0
+    torque_drift: float | tuple[float, ...] = 0.0
+    torque_noise_density: float | tuple[float, ...] = 0.0
+    torque_range: float = math.inf
+    torque_resolution: float = 0.0
     drop_rate: float = 0.0
     tare: bool = False
 
@@ -74,8 +82,10 @@ class SensorParameters:
             ("rate", "Hz"),
             ("latency", "s"),
             ("noise_density", "N/sqrt(Hz)"),
+            ("torque_noise_density", "N m/sqrt(Hz)"),
             ("low_pass", "Hz"),
             ("resolution", "N"),
+            ("torque_resolution", "N m"),
         ):
             value = getattr(self, name)
             if not (np.all(np.isfinite(value)) and np.min(value, initial=0.0) >= 0.0):
@@ -84,14 +94,16 @@ class SensorParameters:
             raise InputError(
                 f"latency = {self.latency} s: it must lie between 0 and {LONGEST_LATENCY:g} s"
             )
-        if not self.range > 0.0:
-            raise InputError(f"range = {self.range} N: it must be above 0")
+        for name, unit in (("range", "N"), ("torque_range", "N m")):
+            if not getattr(self, name) > 0.0:
+                raise InputError(f"{name} = {getattr(self, name)} {unit}: it must be above 0")
         if not 0.0 <= self.drop_rate < 1.0:
             raise InputError(f"drop_rate = {self.drop_rate}: it must be at least 0 and below 1")
-        for name in ("bias", "drift", "noise_density"):
-            value = getattr(self, name)
-            if np.size(value) == 0 or not np.all(np.isfinite(value)):
-                raise InputError(f"{name} = {value}: give one number, or one a channel")
+        for kind in ("bias", "drift", "noise_density"):
+            for name in (kind, f"torque_{kind}"):
+                value = getattr(self, name)
+                if np.size(value) == 0 or not np.all(np.isfinite(value)):
+                    raise InputError(f"{name} = {value}: give one number, or one an axis")
 
 
 PRESETS: dict[str, tuple[str, SensorParameters]] = {
@@ -109,6 +121,13 @@ PRESETS: dict[str, tuple[str, SensorParameters]] = {
             latency=0.001,  # typical: one period of the field bus
             bias=2.0,  # typical, before the tare
             drift=0.1,  # typical after warming up
+            # 20 N m, and 1e6 counts per N m (the same tables).
+            torque_range=20.0,
+            torque_resolution=1e-6,
+            # Typical: the same shares of full scale as for forces.
+            torque_noise_density=8.8e-5,
+            torque_bias=0.08,
+            torque_drift=0.004,
             cross_talk=0.01,  # typical
             tare=True,
         ),
@@ -128,6 +147,14 @@ PRESETS: dict[str, tuple[str, SensorParameters]] = {
             latency=0.01,  # typical: one message
             bias=5.0,  # typical, before the tare
             drift=1.0,  # typical
+            # Whole thousandths of a newton metre (section 4.4.2); 30 N m
+            # (industrialmonitordirect.com, "Robotiq FT 300 path recording without sensor").
+            torque_resolution=0.001,
+            torque_range=30.0,
+            # Typical: the same shares of full scale as for forces.
+            torque_noise_density=0.0015,
+            torque_bias=0.5,
+            torque_drift=0.1,
             cross_talk=0.02,  # typical: "good sensors" stay below 2 %
             drop_rate=0.001,  # typical of a serial line
             tare=True,
@@ -148,6 +175,12 @@ PRESETS: dict[str, tuple[str, SensorParameters]] = {
             resolution=0.02,  # typical: 2 g
             bias=10.0,  # zero balance of 5 % of the rated output (senstech.co.kr, terms)
             drift=5.0,  # typical: creep, and a zero that follows the temperature
+            # Typical: such cells 0.1 m from the axis, so that a newton is 0.1 N m.
+            torque_range=19.6,
+            torque_resolution=0.002,
+            torque_noise_density=0.0007,
+            torque_bias=1.0,
+            torque_drift=0.5,
             cross_talk=0.05,  # typical of single-axis cells bolted together
             drop_rate=0.01,  # typical of a line driven by software
             tare=True,

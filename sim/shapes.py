@@ -78,14 +78,14 @@ def plain_figures(world: World) -> list[Shape]:
         ),
     ]
     stands = [("walls", box, 0.25, WALL) for box in walls(world, BEYOND)]
-    stands += [("furniture", furniture(item), item.height, SOLID) for item in world.furniture]
+    stands += [("furniture", furniture(item), item.top, SOLID) for item in world.furniture]
     for name, box, height, colour in stands:
         turn = (0.0, 0.0, math.sin(box.yaw / 2.0), math.cos(box.yaw / 2.0))
         sides = (2.0 * box.half_length, 2.0 * box.half_width, height)
         place = ((box.x, box.y, height / 2.0), turn)
         shapes.append(Shape(f"scenery/{name}", "box", sides, place, colour))
     for thing in world.obstacles:
-        height, colour = (0.8, SOLID) if thing.solid else (0.004, PUDDLE)
+        height, colour = (thing.top, SOLID) if thing.solid else (0.004, PUDDLE)
         middle = (thing.x, thing.y, height / 2.0)
         size = (height, thing.radius, 0.0)
         shapes.append(upright("scenery/obstacles", "cylinder", middle, size, colour))

@@ -1,4 +1,7 @@
-"""Lines of sight on the floor plan, in plain floats: it is asked for a few lines at a time."""
+"""Lines of sight, in plain floats: it is asked for a few lines at a time.
+
+A line is first judged on the floor plan; what it passes there hides only as far as it is lower.
+"""
 
 from __future__ import annotations
 
@@ -19,6 +22,8 @@ class Screen(NamedTuple):
         Of the direction of its length.
     half_length, half_width : float
         Half of its sides, m.
+    height : float
+        m.
     """
 
     number: int
@@ -28,6 +33,7 @@ class Screen(NamedTuple):
     sin: float
     half_length: float
     half_width: float
+    height: float
 
 
 class Pillar(NamedTuple):
@@ -37,7 +43,7 @@ class Pillar(NamedTuple):
     ----------
     number : int
         Which occluder it is.
-    x, y, radius : float
+    x, y, radius, height : float
         m.
     """
 
@@ -45,9 +51,30 @@ class Pillar(NamedTuple):
     x: float
     y: float
     radius: float
+    height: float
 
 
-Point = tuple[float, float]
+Point = tuple[float, float, float]
+
+
+def below(eye: Point, point: Point, height: float) -> tuple[Point, Point] | None:
+    """Return the part of a line that lies below a height, as two points of that height or less.
+
+    Parameters
+    ----------
+    eye, point : (x, y, z)
+        Ends of the line, m.
+    height : float
+        m.
+    """
+    low, high = (eye, point) if eye[2] <= point[2] else (point, eye)
+    if low[2] >= height:
+        return None
+    if high[2] <= height:
+        return low, high
+    share = (height - low[2]) / (high[2] - low[2])
+    dx, dy = high[0] - low[0], high[1] - low[1]
+    return low, (low[0] + share * dx, low[1] + share * dy, height)
 
 
 def behind_screen(
@@ -59,7 +86,7 @@ def behind_screen(
 
     Parameters
     ----------
-    eye, point : (x, y)
+    eye, point : (x, y, z)
         m.
     screens : iterable of Screen
     itself : int
@@ -67,8 +94,9 @@ def behind_screen(
     """
     middle_x, middle_y = (eye[0] + point[0]) / 2.0, (eye[1] + point[1]) / 2.0
     ray_x, ray_y = middle_x - eye[0], middle_y - eye[1]
+    top = max(eye[2], point[2])
     for screen in screens:
-        number, x, y, cos, sin, half_length, half_width = screen
+        number, x, y, cos, sin, half_length, half_width, height = screen
         if number == itself:
             continue
         dx, dy = middle_x - x, middle_y - y
@@ -80,7 +108,11 @@ def behind_screen(
             continue
         turn = abs(dx * ray_y - dy * ray_x)
         if turn <= half_length * abs(ray_across) + half_width * abs(ray_along):
-            return screen
+            if height >= top:
+                return screen
+            part = below(eye, point, height)
+            if part is not None and behind_screen(*part, (screen,)) is not None:
+                return screen
     return None
 
 
@@ -91,7 +123,7 @@ def behind_pillar(
 
     Parameters
     ----------
-    eye, point : (x, y)
+    eye, point : (x, y, z)
         m.
     pillars : iterable of Pillar
     itself : int
@@ -99,8 +131,9 @@ def behind_pillar(
     """
     ray_x, ray_y = point[0] - eye[0], point[1] - eye[1]
     square = ray_x * ray_x + ray_y * ray_y
+    top = max(eye[2], point[2])
     for pillar in pillars:
-        number, x, y, radius = pillar
+        number, x, y, radius, height = pillar
         if number == itself:
             continue
         dx, dy = x - eye[0], y - eye[1]
@@ -109,5 +142,9 @@ def behind_pillar(
             share = min(share / square, 1.0)
             dx, dy = dx - share * ray_x, dy - share * ray_y
         if dx * dx + dy * dy < radius * radius:
-            return pillar
+            if height >= top:
+                return pillar
+            part = below(eye, point, height)
+            if part is not None and behind_pillar(*part, (pillar,)) is not None:
+                return pillar
     return None

@@ -28,7 +28,7 @@ GROWTH = 1e-6
 
 
 @dataclass(frozen=True)
-class Bodies:
+class Masses:
     """What moves, in base axes, at rest.
 
     Attributes
@@ -54,12 +54,12 @@ class Linear:
 
     Parameters
     ----------
-    bodies : Bodies
+    bodies : Masses
     step : float
         Physics step, s.
     """
 
-    def __init__(self, bodies: Bodies, step: float) -> None:
+    def __init__(self, bodies: Masses, step: float) -> None:
         human, (place_x, place_y, _) = bodies.human, bodies.place
         self.count = n = 6 + 2 * len(human.arms)
         self.step = step

@@ -8,11 +8,12 @@ import math
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle, Ellipse, FancyArrow, Polygon, Rectangle
+from matplotlib.patches import Circle, FancyArrow, Polygon, Rectangle
 from numpy.typing import NDArray
 
 from .footprint import corners, furniture, walls
-from .plant import BASE_RADIUS, HUMAN_RADIUS, PlantState
+from .outline import Bodies
+from .plant import PlantState
 from .world import World
 
 SPAN = 6.0
@@ -22,6 +23,9 @@ METRES_PER_NEWTON = 0.1
 
 FLOOR, WALL, PATH = "#f2f0ec", "#5c5f66", "#8c8f96"
 BASE, HEADING, HUMAN, HEAD, FORCE = "#0d7390", "#ffffff", "#b8383a", "#3f2a1c", "#e8890c"
+LOAD, ARM = "#d9cc9e", "#dead8a"
+HEAD_RADIUS = 0.1
+"""m."""
 PUDDLE, SOLID, PASSER = "#4c9be8", "#7a6a58", "#4f8a5b"
 
 
@@ -36,9 +40,9 @@ def window(
 
 
 def draw(
-    world: World, state: PlantState, width: int, height: int, force: bool = True
+    world: World, state: PlantState, bodies: Bodies, width: int, height: int, force: bool = True
 ) -> NDArray[np.uint8]:
-    """Draw walls, path, obstacles, base, human and the force on the base, seen from above.
+    """Draw walls, path, obstacles, the bodies and the force on the base, seen from above.
 
     The picture follows the base; world x points right and y up.
 
@@ -48,6 +52,8 @@ def draw(
         What is on the ground.
     state : PlantState
         The last sample of its force is drawn.
+    bodies : Bodies
+        Whose outlines are drawn.
     width, height : int
         Size in pixels.
     force : bool
@@ -70,9 +76,11 @@ def draw(
     _ground(axes, world)
     for walker in world.pedestrians:
         _person(axes, *walker.state(state.time), walker.radius)
-    _human(axes, state.human_pose)
-    axes.add_patch(Circle((x, y), BASE_RADIUS, facecolor=BASE, edgecolor="white", zorder=4))
-    nose = np.array([[0.24, 0.0], [0.06, 0.13], [0.06, -0.13]])
+    back, front, right, left = _draw_bodies(axes, bodies, state)
+    # An arrowhead inside the base's outline.
+    length, breadth = 0.5 * (front - back), right - left
+    nose = np.array([[0.0, 0.0], [-0.64, 0.46], [-0.64, -0.46]]) * (0.5 * length, 0.5 * breadth)
+    nose += (front - 0.07 * (front - back), 0.5 * (left + right))
     cos, sin = math.cos(theta), math.sin(theta)
     turn = np.array([[cos, sin], [-sin, cos]])
     axes.add_patch(Polygon(nose @ turn + (x, y), facecolor=HEADING, zorder=5))
@@ -137,17 +145,16 @@ def _person(axes: Axes, x: float, y: float, vx: float, vy: float, radius: float)
         axes.add_patch(FancyArrow(x, y, vx, vy, width=0.03, facecolor=PASSER, lw=0, zorder=3.9))
 
 
-def _human(axes: Axes, pose: tuple[float, float, float]) -> None:
-    x, y, theta = pose
-    axes.add_patch(
-        Ellipse(
-            (x, y),
-            HUMAN_RADIUS * 1.1,
-            HUMAN_RADIUS * 2.0,
-            angle=math.degrees(theta),
-            facecolor=HUMAN,
-            edgecolor="white",
-            zorder=4,
+def _draw_bodies(
+    axes: Axes, bodies: Bodies, state: PlantState
+) -> tuple[float, float, float, float]:
+    """Draw the outlines of the bodies; return the box around the base's, base axes, m."""
+    colours = {"base": BASE, "human": HUMAN, "load": LOAD}
+    for (name, outline), pose in zip(bodies.outlines.items(), state.poses, strict=True):
+        axes.add_patch(
+            Polygon(outline.at(pose), facecolor=colours[name], edgecolor="white", zorder=4)
         )
-    )
-    axes.add_patch(Circle((x, y), HUMAN_RADIUS * 0.45, facecolor=HEAD, zorder=5))
+    for arm in bodies.arms:
+        axes.add_patch(Polygon(arm.at(state.human_pose), facecolor=ARM, zorder=4.5))
+    axes.add_patch(Circle(state.human_pose[:2], HEAD_RADIUS, facecolor=HEAD, zorder=5))
+    return bodies.outlines["base"].box

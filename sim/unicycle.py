@@ -9,7 +9,15 @@ import numpy as np
 
 from .clearance import Clearance
 from .errors import SimulationError
-from .plant import BASE_RADIUS, HUMAN_PLACE, HUMAN_RADIUS, PlantState, Rates
+from .outline import Bodies
+from .plant import (
+    BASE_RADIUS,
+    HUMAN_PLACE,
+    HUMAN_RADIUS,
+    PLAIN_BODIES,
+    PlantState,
+    Rates,
+)
 from .world import World
 
 
@@ -24,6 +32,8 @@ class UnicyclePlant:
     rates : Rates
     """
 
+    steers_from_behind = False
+
     def __init__(self, rates: Rates) -> None:
         self._period = rates.period
         self._samples = rates.samples
@@ -32,6 +42,11 @@ class UnicyclePlant:
         self._hand_force = (0.0, 0.0)
         self._world: World | None = None
         self._steps = 0
+
+    @property
+    def bodies(self) -> Bodies:
+        """See `Plant.bodies`: two discs."""
+        return PLAIN_BODIES
 
     def reset(self, world: World, rng: np.random.Generator) -> PlantState:
         """See `Plant.reset`."""
@@ -74,8 +89,8 @@ class UnicyclePlant:
         x, y, theta = self._pose
         cos, sin = math.cos(theta), math.sin(theta)
         place_x, place_y, place_theta = HUMAN_PLACE
-        force = np.empty((self._samples, 2))
-        force[:, 0], force[:, 1] = self._hand_force
+        wrench = np.zeros((self._samples, 6))  # there is no body to have a torque
+        wrench[:, 0], wrench[:, 1] = self._hand_force
         return PlantState(
             pose=self._pose,
             twist=self._twist,
@@ -84,7 +99,7 @@ class UnicyclePlant:
                 y + sin * place_x + cos * place_y,
                 theta + place_theta,
             ),
-            force_on_base=force,
+            wrench_on_base=wrench,
             time=self._steps * self._period,
         )
 
@@ -98,7 +113,7 @@ class UnicyclePlant:
         from .topview import draw
 
         assert self._world is not None, "reset before render"
-        return draw(self._world, self._state(), width, height)
+        return draw(self._world, self._state(), PLAIN_BODIES, width, height)
 
     def close(self) -> None:
         """See `Plant.close`: nothing is held."""

@@ -13,6 +13,8 @@ from .errors import InputError
 from .motion import Array
 
 Vector = tuple[float, float, float]
+Frame = tuple[Array, Array]
+"""Rotation (3, 3) and origin (3,), m."""
 
 
 @dataclass(frozen=True)
@@ -56,16 +58,23 @@ def read_robot(path: Path) -> ElementTree.Element:
     return root
 
 
-def _numbers(text: str | None) -> Array:
+def numbers(text: str | None) -> Array:
+    """Return the numbers of an attribute such as "0 0 1"; three zeros where there is none."""
     return np.array([float(part) for part in (text or "0 0 0").split()])
 
 
-def _origin(element: ElementTree.Element | None) -> tuple[Array, Array]:
+def origin(element: ElementTree.Element) -> Frame:
     """Return rotation (3, 3) and translation (3,) of an element's <origin>."""
-    origin = element.find("origin") if element is not None else None
-    if origin is None:
+    found = element.find("origin")
+    if found is None:
         return np.eye(3), np.zeros(3)
-    return rotation(*_numbers(origin.get("rpy"))), _numbers(origin.get("xyz"))
+    return rotation(*numbers(found.get("rpy"))), numbers(found.get("xyz"))
+
+
+def within(outer: Frame, inner: Frame) -> Frame:
+    """Return a frame that is given in the axes of an outer one, in what that is given in."""
+    (turn, shift), (own_turn, own_shift) = outer, inner
+    return turn @ own_turn, shift + turn @ own_shift
 
 
 def rotation(roll: float, pitch: float, yaw: float) -> Array:
@@ -93,6 +102,35 @@ def _inertia(element: ElementTree.Element) -> Array:
     )
 
 
+def link_frames(root: ElementTree.Element) -> dict[str, Frame]:
+    """Return rotation (3, 3) and origin (3,) of every link's frame, all joints at zero.
+
+    Raises
+    ------
+    InputError
+        If the joints do not form one tree.
+    """
+    children = {j.find("child").get("link"): j for j in root.iter("joint") if _joint(j)}  # type: ignore[union-attr]
+    frames: dict[str, Frame] = {}
+
+    def frame(name: str, depth: int = 0) -> Frame:
+        if name not in frames:
+            joint = children.get(name)
+            if joint is None:
+                frames[name] = np.eye(3), np.zeros(3)
+            else:
+                if depth > len(children):
+                    raise InputError(f"robot: the joints above link {name!r} form a loop")
+                above = frame(joint.find("parent").get("link"), depth + 1)  # type: ignore[union-attr,arg-type]
+                frames[name] = within(above, origin(joint))
+        return frames[name]
+
+    names = [link.get("name", "") for link in root.iter("link")]
+    if len(roots := [name for name in names if name not in children]) != 1:
+        raise InputError(f"robot: {len(roots)} links are no joint's child ({', '.join(roots)})")
+    return {name: frame(name) for name in names}
+
+
 def lump(root: ElementTree.Element) -> Rigid:
     """Return a robot as one rigid body, all joints at zero.
 
@@ -101,42 +139,23 @@ def lump(root: ElementTree.Element) -> Rigid:
     InputError
         If it has no mass, or its joints do not form one tree.
     """
-    children = {j.find("child").get("link"): j for j in root.iter("joint") if _joint(j)}  # type: ignore[union-attr]
-    frames: dict[str, tuple[Array, Array]] = {}
-
-    def frame(name: str, depth: int = 0) -> tuple[Array, Array]:
-        if name not in frames:
-            joint = children.get(name)
-            if joint is None:
-                frames[name] = np.eye(3), np.zeros(3)
-            else:
-                if depth > len(children):
-                    raise InputError(f"robot: the joints above link {name!r} form a loop")
-                turn, shift = frame(joint.find("parent").get("link"), depth + 1)  # type: ignore[union-attr,arg-type]
-                own_turn, own_shift = _origin(joint)
-                frames[name] = turn @ own_turn, shift + turn @ own_shift
-        return frames[name]
-
-    names = [link.get("name", "") for link in root.iter("link")]
-    if len(roots := [name for name in names if name not in children]) != 1:
-        raise InputError(f"robot: {len(roots)} links are no joint's child ({', '.join(roots)})")
+    frames = link_frames(root)
     parts = []
     for link in root.iter("link"):
-        turn, shift = frame(link.get("name", ""))
         inertial = link.find("inertial")
         mass = inertial.find("mass") if inertial is not None else None
         if inertial is None or mass is None or float(mass.get("value", 0.0)) <= 0.0:
             continue
-        own_turn, own_shift = _origin(inertial)
-        element, turned = inertial.find("inertia"), turn @ own_turn
+        turned, centre = within(frames[link.get("name", "")], origin(inertial))
+        element = inertial.find("inertia")
         inertia = turned @ _inertia(element) @ turned.T if element is not None else np.zeros((3, 3))
-        parts.append((float(mass.get("value", 0.0)), shift + turn @ own_shift, inertia[2, 2]))
+        parts.append((float(mass.get("value", 0.0)), centre, inertia[2, 2]))
     total = sum(mass for mass, _, _ in parts)
     if total <= 0.0:
         raise InputError("robot: its links have no mass")
     centre = sum((mass * place for mass, place, _ in parts), np.zeros(3)) / total
     yaw = sum(izz + m * float(np.sum((p - centre)[:2] ** 2)) for m, p, izz in parts)
-    places = {name: _vector(frame(name)[1]) for name in names}
+    places = {name: _vector(place) for name, (_, place) in frames.items()}
     return Rigid(total, _vector(centre), float(yaw), places)
 
 
@@ -152,11 +171,11 @@ def _vector(array: Array) -> Vector:
 def mirrored(root: ElementTree.Element) -> ElementTree.Element:
     """Return a robot with left and right swapped (y to -y), for bodies of plain shapes."""
     copy = ElementTree.fromstring(ElementTree.tostring(root))
-    for origin in copy.iter("origin"):
-        x, y, z = _numbers(origin.get("xyz"))
-        roll, pitch, yaw = _numbers(origin.get("rpy"))
-        origin.set("xyz", f"{x} {-y} {z}")
-        origin.set("rpy", f"{-roll} {pitch} {-yaw}")
+    for place in copy.iter("origin"):
+        x, y, z = numbers(place.get("xyz"))
+        roll, pitch, yaw = numbers(place.get("rpy"))
+        place.set("xyz", f"{x} {-y} {z}")
+        place.set("rpy", f"{-roll} {pitch} {-yaw}")
     return copy
 
 
@@ -192,21 +211,35 @@ def hinge(
     )
 
 
-def planar(name: str, root_link: str, parts: str) -> str:
+def slider(name: str, parent: str, child: str, axis: str, place: Vector = (0.0, 0.0, 0.0)) -> str:
+    """Return a joint that slides freely along an axis."""
+    x, y, z = place
+    return (
+        f'<joint name="{name}" type="prismatic"><parent link="{parent}"/><child link="{child}"/>'
+        f'<origin xyz="{x!r} {y!r} {z!r}"/><axis xyz="{axis}"/>'
+        '<limit lower="1" upper="-1" effort="1e9" velocity="1e9"/></joint>'
+    )
+
+
+def planar(name: str, root_link: str, parts: str, rises: bool = False) -> str:
     """Return a robot whose ``root_link``, among ``parts``, slides and turns on the floor.
 
     The engine's planar joint cannot be driven from Python; a chain x, y, yaw can.
+
+    Parameters
+    ----------
+    name, root_link, parts : str
+    rises : bool
+        Whether its height is free as well (joint ``z``).
     """
-    slide = (
-        '<joint name="{0}" type="prismatic"><parent link="{1}"/><child link="{2}"/>'
-        '<axis xyz="{3}"/><limit lower="1" upper="-1" effort="1e9" velocity="1e9"/></joint>'
-    )
+    lift = LOCKED.format("slide_z") + slider("z", "ground", "slide_z", "0 0 1") if rises else ""
     return "".join(
         (
             f'<robot name="{name}">',
             *(LOCKED.format(part) for part in ("ground", "slide_x", "slide_y")),
-            slide.format("x", "ground", "slide_x", "1 0 0"),
-            slide.format("y", "slide_x", "slide_y", "0 1 0"),
+            lift,
+            slider("x", "slide_z" if rises else "ground", "slide_x", "1 0 0"),
+            slider("y", "slide_x", "slide_y", "0 1 0"),
             hinge("yaw", "slide_y", root_link),
             parts,
             "</robot>",

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from .errors import InputError
+from .heights import usual_height
 from .path import Path
 from .pedestrians import Pedestrian
 from .seats import SEATS, check_seats
@@ -29,8 +30,14 @@ __all__ = [
 def _positive(thing: object, *names: str) -> None:
     for name in names:
         value = getattr(thing, name)
-        if not 0.0 < value < math.inf:
+        if value is not None and not 0.0 < value < math.inf:
             raise InputError(f"{name} = {value} m: it must be above 0")
+
+
+def _settle_height(thing: Obstacle | Furniture) -> None:
+    """Give a thing without a height the usual one: it is then written out with the others."""
+    if thing.height is None:
+        object.__setattr__(thing, "height", usual_height(thing.kind))
 
 
 @dataclass(frozen=True)
@@ -47,6 +54,8 @@ class Obstacle:
         ``"puddle"`` is marked on the floor and can be walked through, anything else is solid.
     seen_by : tuple of str
         Seats that perceive it, out of ``"human"`` and ``"automation"``, once it is in sight.
+    height : float, optional
+        m; without it the usual one of its kind (`cowalk.sim.heights`).
     """
 
     x: float
@@ -54,15 +63,25 @@ class Obstacle:
     radius: float
     kind: str = "puddle"
     seen_by: tuple[str, ...] = SEATS
+    height: float | None = None
 
     def __post_init__(self) -> None:
-        _positive(self, "radius")
+        _positive(self, "radius", "height")
         check_seats(self.seen_by)
+        if self.solid:
+            _settle_height(self)
+        elif self.height is not None:
+            raise InputError(f"height = {self.height} m: a puddle has none; leave it out")
 
     @property
     def solid(self) -> bool:
         """Whether touching it is a collision."""
         return self.kind != "puddle"
+
+    @property
+    def top(self) -> float:
+        """How high it is, m."""
+        return self.height or 0.0
 
 
 @dataclass(frozen=True)
@@ -77,10 +96,11 @@ class Furniture:
         Sides in m.
     yaw : float
         Direction of ``length``, rad from the x axis.
-    height : float
-        m; for pictures alone, nobody looks over furniture.
+    height : float, optional
+        m; without it the usual one of its kind (`cowalk.sim.heights`). Who has their eyes
+        above it looks over it, at what is high enough behind it.
     kind : str
-        What it is, for pictures and messages.
+        What it is: a table, a cupboard.
     seen_by : tuple of str
         Seats that perceive it once it is in sight.
     """
@@ -90,13 +110,19 @@ class Furniture:
     length: float
     width: float
     yaw: float = 0.0
-    height: float = 0.8
+    height: float | None = None
     kind: str = "furniture"
     seen_by: tuple[str, ...] = SEATS
 
     def __post_init__(self) -> None:
         _positive(self, "length", "width", "height")
         check_seats(self.seen_by)
+        _settle_height(self)
+
+    @property
+    def top(self) -> float:
+        """How high it is, m."""
+        return self.height or 0.0
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -25,6 +26,29 @@ class SensorMount:
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
     rpy: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
+    # Read in every control step, so worked out once.
+
+    @cached_property
+    def at_handle(self) -> bool:
+        """Whether the sensor's frame is the base's, moved to the handle."""
+        return not (any(self.position) or any(self.rpy))
+
+    @cached_property
+    def to_sensor(self) -> Array:
+        """What `in_sensor_frame` multiplies a row (F, M) with, shape (6, 6)."""
+        turn = rotation(*self.rpy)
+        return np.block([[turn, _cross(self.position) @ turn], [np.zeros((3, 3)), turn]])
+
+    @cached_property
+    def to_base(self) -> Array:
+        """Its inverse, which `in_base_frame` multiplies with, shape (6, 6)."""
+        back = rotation(*self.rpy).T
+        return np.block([[back, -back @ _cross(self.position)], [np.zeros((3, 3)), back]])
+
+
+AT_HANDLE = SensorMount()
+"""A sensor whose frame is the base's, moved to the handle."""
+
 
 def in_sensor_frame(wrench: Array, mount: SensorMount) -> Array:
     """Return a wrench about the handle as the sensor sees it.
@@ -40,9 +64,33 @@ def in_sensor_frame(wrench: Array, mount: SensorMount) -> Array:
     Returns
     -------
     ndarray, shape (..., 6)
-        Force and torque about the sensor's origin, sensor axes.
+        Force and torque about the sensor's origin, sensor axes; the very input for a sensor
+        whose frame is the base's, moved to the handle.
     """
-    turn = rotation(*mount.rpy)
-    force, torque = wrench[..., :3], wrench[..., 3:]
-    moved = torque - np.cross(np.asarray(mount.position), force)
-    return np.concatenate((force @ turn, moved @ turn), axis=-1)
+    return wrench if mount.at_handle else wrench.dot(mount.to_sensor)
+
+
+def in_base_frame(wrench: Array, mount: SensorMount) -> Array:
+    """Return a wrench that the sensor reads as it acts about the handle.
+
+    F = R F_s, M = R M_s + p x F: the inverse of `in_sensor_frame`.
+
+    Parameters
+    ----------
+    wrench : ndarray, shape (..., 6)
+        Force (N) and torque about the sensor's origin (N m), sensor axes.
+    mount : SensorMount
+
+    Returns
+    -------
+    ndarray, shape (..., 6)
+        Force and torque about the handle, base axes; the very input for a sensor whose frame
+        is the base's, moved to the handle.
+    """
+    return wrench if mount.at_handle else wrench.dot(mount.to_base)
+
+
+def _cross(position: tuple[float, float, float]) -> Array:
+    """Return [p]x, so that [p]x F = p x F; a row F times it is F x p."""
+    x, y, z = position
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

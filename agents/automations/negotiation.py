@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections import deque
 from copy import deepcopy
 
 import numpy as np
@@ -63,11 +64,14 @@ class NegotiatingAutomation(ABC):
         )
         self._negotiated = slice(0 if settings.dimensions == "both" else 1, 2)
         self._count = 0
+        window = max(1, round(settings.force_window / situation.period))
+        self._recent: deque[Observation] = deque(maxlen=window)
         self._belief = Belief()
         self._twist = np.zeros(2)
 
     def act(self, observation: Observation) -> Array:
         """See `Automation.act`."""
+        self._recent.append(observation)
         if self._count % self._steps == 0:
             self._twist = self._negotiate(observation)
         self._count += 1
@@ -79,7 +83,7 @@ class NegotiatingAutomation(ABC):
 
     def _negotiate(self, observation: Observation) -> Array:
         twist = observation["twist"]
-        force = mean_force(observation["force"], observation.get("force_valid"))
+        force = self._mean_force()
         pose = observation["pose_world"]
         if self._count == 0:
             self._observer.reset(self._reading, twist)
@@ -108,6 +112,14 @@ class NegotiatingAutomation(ABC):
             negotiation=self._belief.negotiation + 1,
         )
         return agreed
+
+    def _mean_force(self) -> Array:
+        """Return the mean over the window of what arrived, N, shape (..., 2)."""
+        recent = self._recent
+        force = np.concatenate([seen["force"] for seen in recent], axis=-2)
+        if "force_valid" not in recent[0]:
+            return mean_force(force, None)
+        return mean_force(force, np.concatenate([seen["force_valid"] for seen in recent], axis=-1))
 
     def _negotiable(self, wish: Array) -> Array:
         """Return the human's wish with the usual pace where v is not negotiated."""

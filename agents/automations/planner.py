@@ -20,6 +20,7 @@ from cowalk.sim.motion import Array, arc_displacement, compose, unit_arc, world_
 from .settings import NegotiationSettings
 
 _NEIGHBOURS = np.array([-1, 0, 1])
+_TINY = 1e-12
 
 
 def minimise(cost: Callable[[Array], Array], low: Array, high: Array, points: int = 33) -> Array:
@@ -48,7 +49,8 @@ def minimise(cost: Callable[[Array], Array], low: Array, high: Array, points: in
         best = np.minimum(np.maximum(value.argmin(axis=-1), 1), points - 2)[..., None]
         cell = width / (points - 1)
         left, width = left + (best - 1) * cell, 2.0 * cell
-    before, here, after = np.moveaxis(np.take_along_axis(value, best + _NEIGHBOURS, axis=-1), -1, 0)
+    lowest = np.take_along_axis(value, best + _NEIGHBOURS, axis=-1)
+    before, here, after = lowest[..., 0], lowest[..., 1], lowest[..., 2]
     bend = before - 2.0 * here + after
     shift = 0.5 * (before - after) / np.where(bend > 0.0, bend, np.inf)
     inside = np.minimum(np.maximum(shift, -1.0), 1.0)[..., None]  # np.clip takes longer
@@ -92,8 +94,8 @@ class Problem(ABC):
         """Return p_A*, the primitive of least cost within the bounds, shape (..., 2)."""
 
     @abstractmethod
-    def front(self, share: Array, own: Array, human: Array) -> Array:
-        """Return points of the Pareto front between the two wishes.
+    def front(self, share: Array, own: Array, human: Array, gap: Array) -> tuple[Array, Array]:
+        """Return points of the Pareto front between the two wishes, and what they cost.
 
         A point minimises share * J + (1 - share) * |(p - p_H)/p_ub|^2, both normed to lie
         between 0 at one side's wish and 1 at the other's.
@@ -104,10 +106,12 @@ class Problem(ABC):
             Weight of the automation, 0 (the human's wish) to 1 (its own).
         own, human : ndarray, shape (..., 2)
             p_A* and the estimated human wish, m/s and rad/s.
+        gap : ndarray, shape (..., 1)
+            J of the human's wish less J of one's own.
 
         Returns
         -------
-        ndarray, shape (..., n, 2)
+        (ndarray, ndarray), shapes (..., n, 2) and (..., n)
         """
 
 
@@ -130,10 +134,10 @@ class TurnProblem(Problem):
         low, high = (np.broadcast_to(b[..., 1], lanes) for b in (self._lower, self._upper))
         return self._at_pace(minimise(lambda omega: self.cost(self._at_pace(omega)), low, high))
 
-    def front(self, share: Array, own: Array, human: Array) -> Array:
+    def front(self, share: Array, own: Array, human: Array, gap: Array) -> tuple[Array, Array]:
         """See `Problem.front`; in one dimension it is the interval between the wishes."""
-        between = human[..., None, 1] + share * (own - human)[..., None, 1]
-        return self._at_pace(between)
+        points = self._at_pace(human[..., None, 1] + share * (own - human)[..., None, 1])
+        return points, self.cost(points)
 
     def _at_pace(self, omega: Array) -> Array:
         return np.stack((np.full_like(omega, self._situation.pace), omega), axis=-1)
@@ -155,6 +159,10 @@ class TwistProblem(Problem):
         self._reach_weight = self._w1 * self._horizon**2
         self._pull_weight = self._w1 * self._horizon
         self._rest = self._w1 * (self._ahead**2 + self._left**2)
+        lanes = (*pose.shape[:-1], 1)
+        low, high = self._lower[..., 1:], self._upper[..., 1:]
+        self._turns = np.broadcast_to(low, lanes), np.broadcast_to(high, lanes)
+        self._scale = self._upper**-2
 
     def _parabola(self, omega: Array) -> tuple[Array, Array, Array]:
         """Return (a, b, c) of J = a v^2 - 2 b v + c, each of shape (..., n)."""
@@ -177,19 +185,17 @@ class TwistProblem(Problem):
         """See `Problem.wish`."""
         lanes = self._pose.shape[:-1]
         nobody = np.zeros((*lanes, 2))
-        return self._best(np.ones((*lanes, 1)), np.zeros((*lanes, 1)), nobody)[..., 0, :]
+        return self._best(np.ones((*lanes, 1)), np.zeros((*lanes, 1)), nobody)[0][..., 0, :]
 
-    def front(self, share: Array, own: Array, human: Array) -> Array:
+    def front(self, share: Array, own: Array, human: Array, gap: Array) -> tuple[Array, Array]:
         """See `Problem.front`."""
-        ends = self.cost(np.stack((human, own), axis=-2))
-        own_gap = np.maximum(ends[..., :1] - ends[..., 1:], 1e-12)
-        human_gap = np.sum(((own - human) / self._upper) ** 2, axis=-1)[..., None]
-        return self._best(share / own_gap, (1.0 - share) / np.maximum(human_gap, 1e-12), human)
+        human_gap = ((own - human) ** 2 * self._scale).sum(axis=-1)[..., None]
+        own_weight = share / np.maximum(gap, _TINY)
+        return self._best(own_weight, (1.0 - share) / np.maximum(human_gap, _TINY), human)
 
-    def _best(self, own_weight: Array, human_weight: Array, human: Array) -> Array:
-        """Minimise own_weight * J + human_weight * |(p - p_H)/p_ub|^2 for each weight."""
-        lanes = self._pose.shape[:-1]
-        scale = self._upper**-2
+    def _best(self, own_weight: Array, human_weight: Array, human: Array) -> tuple[Array, Array]:
+        """Minimise own_weight * J + human_weight * |(p - p_H)/p_ub|^2; return points and J."""
+        lanes, scale = self._pose.shape[:-1], self._scale
         own = own_weight[..., None]
         v_weight = human_weight[..., None] * scale[..., 0]
         omega_weight = human_weight[..., None] * scale[..., 1]
@@ -206,9 +212,10 @@ class TwistProblem(Problem):
             fixed = own * c.reshape(omega.shape) + omega_weight * (turned * turned)
             return v, (a * v - 2.0 * b) * v + fixed
 
-        low, high = (np.broadcast_to(x[..., 1:], (*lanes, 1)) for x in (self._lower, self._upper))
-        omega = minimise(lambda turn: solve(turn)[1], low, high, points=17)
-        return np.stack((solve(omega[..., None])[0][..., 0], omega), axis=-1)
+        omega = minimise(lambda turn: solve(turn)[1], *self._turns, points=17)
+        v = solve(omega[..., None])[0][..., 0]
+        a, b, c = self._parabola(omega)
+        return np.stack((v, omega), axis=-1), (a * v - 2.0 * b) * v + c
 
 
 PROBLEMS: dict[str, type[Problem]] = {"omega": TurnProblem, "both": TwistProblem}

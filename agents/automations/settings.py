@@ -31,6 +31,10 @@ class NegotiationSettings:
         Force in N, forward and sideways, that is read as full insistence.
     force_threshold : (float, float)
         Force in N below which no wish is read.
+    force_window : float
+        Time in s over which the force is averaged before it is read; 0 is the last control
+        step alone, as in the paper. A stride (two steps, about 1.4 s at 0.8 m/s) takes out the
+        sway of a walking human, which reading once a period would alias into a slow wish.
     sensitivity : (float, float)
         f_v and f_omega: share of the upper bound that a full force asks for.
 
@@ -48,12 +52,13 @@ class NegotiationSettings:
     turn_weight: float = 0.069
     force_max: tuple[float, float] = (7.5, 7.5)
     force_threshold: tuple[float, float] = (0.0, 0.0)
+    force_window: float = 0.0
     sensitivity: tuple[float, float] = (0.5, 0.5)
 
     def __post_init__(self) -> None:
         for names, holds, what in (
             (("period", "horizon", "distance_weight", "force_max"), np.greater, "above 0"),
-            (("speed_weight", "turn_weight"), np.greater_equal, "at least 0"),
+            (("speed_weight", "turn_weight", "force_window"), np.greater_equal, "at least 0"),
             (("force_threshold", "sensitivity"), np.greater_equal, "at least 0"),
         ):
             for name in names:

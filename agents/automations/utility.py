@@ -15,6 +15,7 @@ from cowalk.sim.motion import Array
 from .planner import Problem
 
 _SHARES = np.linspace(0.0, 1.0, 17), np.linspace(0.0, 1.0, 9)
+_BRACKET, _BRACKET_LEAST = np.array([-1, 0]), np.array([0, 1])
 _AGREED = 1e-12
 
 
@@ -54,20 +55,21 @@ def negotiated(problem: Problem, own: Array, human: Array, target: Array) -> Arr
     """
     costs = problem.cost(np.stack((human, own), axis=-2))
     human_cost, own_cost = costs[..., :1], costs[..., 1:]
-    goal = np.broadcast_to(target, own.shape[:-1])[..., None]
-    low, high = np.zeros_like(goal), np.ones_like(goal)
+    gap = human_cost - own_cost
+    goal = np.asarray(target)[..., None]
+    low, width = np.zeros_like(gap), 1.0
     for shares in _SHARES:
-        share = low + (high - low) * shares
-        points = problem.front(share, own, human)
-        value = utility(problem.cost(points), human_cost, own_cost)
+        points, cost = problem.front(low + width * shares, own, human, gap)
+        value = utility(cost, human_cost, own_cost)
         # Utility rises along the front: the first point at or above the target closes a bracket.
         reached = value >= goal
-        last = np.where(reached.any(axis=-1), np.argmax(reached, axis=-1), shares.size - 1)
-        pair = np.maximum(last - 1, 0)[..., None], np.maximum(last, 1)[..., None]
-        low, high = (np.take_along_axis(share, at, axis=-1) for at in pair)
-    before, after = (np.take_along_axis(value, at, axis=-1) for at in pair)
-    step = after - before
-    weight = np.clip((goal - before) / np.where(step > 0.0, step, 1.0), 0.0, 1.0)
-    first, second = (np.take_along_axis(points, at[..., None], axis=-2)[..., 0, :] for at in pair)
-    settled = first + weight * (second - first)
-    return np.where(human_cost - own_cost <= _AGREED, own, settled)
+        last = np.where(reached.any(axis=-1), reached.argmax(axis=-1), shares.size - 1)[..., None]
+        pair = np.maximum(last + _BRACKET, _BRACKET_LEAST)
+        low, width = low + width * shares[pair[..., :1]], width / (shares.size - 1)
+    ends = np.take_along_axis(value, pair, axis=-1)
+    before, step = ends[..., :1], ends[..., 1:] - ends[..., :1]
+    weight = (goal - before) / np.where(step > 0.0, step, np.inf)
+    weight = np.minimum(np.maximum(weight, 0.0), 1.0)  # np.clip takes longer
+    sides = np.take_along_axis(points, pair[..., None], axis=-2)
+    settled = sides[..., 0, :] + weight * (sides[..., 1, :] - sides[..., 0, :])
+    return np.where(gap <= _AGREED, own, settled)

@@ -21,7 +21,8 @@ class PerceptionThreshold(Imperfection):
     A force is held in mind until another differs from it by more than
     max(threshold, weber |F|), F being the one in mind: Weber's law with a floor, as the
     perceptual deadbands of haptic coding have it. It applies to the force that the human
-    inside feels (``observation["force"]``, whose mean over the control step counts) and to
+    inside feels (``observation["force"]``, whose mean over the control step counts, and that
+    part of ``observation["wrench"]``; torque is felt as it is) and to
     the force of their own hand, which they correct only by what they can feel.
 
     Parameters
@@ -60,6 +61,9 @@ class PerceptionThreshold(Imperfection):
         perceived = observation.copy()
         perceived["force"] = felt = np.empty_like(force)
         felt[...] = m.pair(mean, *self._felt)[..., None, :]
+        if "wrench" in observation:
+            perceived["wrench"] = observation["wrench"].copy()
+            perceived["wrench"][..., :2] = felt
         return self.distort(self.human.act(perceived), observation)
 
     def distort(self, force: Array, observation: Observation) -> Array:

@@ -141,6 +141,7 @@ def test_a_period_that_does_not_fit_the_control_period_is_refused_with_both_numb
         ("period", 0.0),
         ("distance_weight", -1.0),
         ("turn_weight", -0.1),
+        ("force_window", -0.1),
         ("force_max", (0.0, 7.5)),
         ("force_threshold", (-1.0, 0.0)),
     ],
@@ -177,3 +178,18 @@ def test_the_wish_on_a_bent_path_turns_with_it(name):
 def test_an_empty_range_of_interaction_is_refused():
     with pytest.raises(ValueError, match="interaction_min"):
         StubbornnessAutomation(interaction_min=1.0, interaction_max=1.0)
+
+
+def test_a_window_averages_what_arrived_since_so_many_steps(observe):
+    reading = NegotiationSettings(period=0.1, force_window=0.2)
+    automation = StubbornnessAutomation(negotiation=reading)
+    automation.reset(np.random.default_rng(0), SITUATION)
+    read = []
+    for sideways, arrived in ((1.0, 1), (3.0, 1), (2.0, 1), (4.0, 1), (9.0, 0)):
+        seen = observe(force=(0.0, sideways))
+        seen["force_valid"] = np.full(len(seen["force"]), float(arrived))
+        automation.act(seen)
+        asked = automation.belief().human_wish[1] - seen["twist"][1]
+        read.append(asked * reading.force_max[1] / (BOUNDS.upper[1] * reading.sensitivity[1]))
+    # Negotiations at the steps 0, 2 and 4 look four steps back; the last sample was lost.
+    np.testing.assert_allclose(read[::2], [1.0, 2.0, 3.0])

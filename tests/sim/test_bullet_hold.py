@@ -136,3 +136,20 @@ def test_wheels_come_with_the_robot_that_ships(tmp_path):
     )
     with pytest.raises(InputError, match="only the robot that ships has wheels"):
         BulletPlant(Rates(), drive={"kind": "wheels"}, robot={"urdf": str(file)})
+
+
+@pytest.mark.parametrize("grip", ["rigid", "compliant"])
+def test_a_base_on_wheels_stands_on_the_floor_and_keeps_its_course(grip):
+    """The hand follows the handle up and down: it carries nothing, and no wheel lifts off."""
+    states = walk(300, (0.8, 0.26), (0.0, 5.0), drive={"kind": "wheels"}, grip={"kind": grip})
+    force = np.concatenate([state.wrench_on_base[:, :3] for state in states[100:]])
+    assert np.abs(force[:, 2]).max() < 0.02
+    assert states[-1].twist == pytest.approx((0.8, 0.26), rel=2e-3)
+    turned = states[-1].pose[2] - states[100].pose[2]
+    assert turned == pytest.approx(0.26 * (states[-1].time - states[100].time), rel=5e-3)
+
+
+def test_on_wheels_a_load_weighs_on_the_base_that_it_is_clamped_to():
+    coupling = {"kind": "stretcher", "mass": 8.0}
+    state = walk(200, drive={"kind": "wheels"}, coupling=coupling, body={"hand": "both"})[-1]
+    np.testing.assert_allclose(state.wrench_on_base[:, 2], -8.0 * 9.81, rtol=2e-3)

@@ -1,3 +1,4 @@
+import math
 import warnings
 
 import numpy as np
@@ -11,7 +12,9 @@ from cowalk.sim.path import Path
 from cowalk.sim.plant import Rates
 from cowalk.sim.plants import PLANTS
 from cowalk.sim.sensor import SensorParameters
+from cowalk.sim.sensor_parameters import sensor_preset
 from cowalk.sim.world import Corridor, Obstacle, World
+from cowalk.sim.wrench import SensorMount, in_base_frame, in_sensor_frame
 
 NOISY = SensorParameters(noise_density=0.02, drop_rate=0.02, low_pass=60.0, latency=0.01)
 
@@ -63,6 +66,7 @@ def test_spaces_are_the_same_for_both_seats_and_hold_the_observations():
     for seat in env.agents:
         assert env.observation_space(seat).contains(dict(observations[seat]))
     assert observations["human"]["force"].shape == (6, 2)
+    assert observations["human"]["wrench"].shape == (6, 6)
 
 
 def test_only_the_human_sees_what_only_the_human_sees():
@@ -79,6 +83,35 @@ def test_the_automation_reads_the_sensor_and_the_human_feels_the_force():
     np.testing.assert_array_equal(observations["human"]["force"], [[1.0, 2.0]] * 12)
     assert observations["human"]["force_valid"].all()
     assert observations["automation"]["force"].std(axis=0).min() > 0.05
+    # Points have no torque, on either seat.
+    np.testing.assert_array_equal(observations["human"]["wrench"], [[1.0, 2.0, 0, 0, 0, 0]] * 12)
+    assert observations["automation"]["wrench"][:, :3].std(axis=0).min() > 0.05
+    assert not observations["automation"]["wrench"][:, 3:].any()
+
+
+@pytest.mark.parametrize("sensor", [SensorParameters(), sensor_preset("laboratory")])
+def test_the_automation_reads_in_the_sensors_frame_and_the_human_feels_in_the_bases(sensor):
+    mount = SensorMount((0.02, 0.0, -0.1), (0.1, -0.2, math.pi / 3))
+    body = {"grip": {"turn_stiffness": (0.0, 0.0, 2.0)}, "gait": {"enabled": True}}
+    env = parallel_env(sensor=sensor, plant_parameters={"mount": mount, **body})
+    env.reset(seed=0)
+    actions = {"human": np.array([3.0, 5.0]), "automation": np.array([0.6, 0.1])}
+    exact, twisted = sensor == SensorParameters(), 0.0
+    for _ in range(20):  # the push sets in, and the low-pass settles
+        env.step(actions)
+    for _ in range(40):
+        observations, *_ = env.step(actions)
+        felt, read = (observations[seat]["wrench"] for seat in ("human", "automation"))
+        np.testing.assert_array_equal(felt, env.plant_state.wrench_on_base)
+        np.testing.assert_array_equal(felt[:, :2], observations["human"]["force"])
+        twisted = max(twisted, np.abs(felt[:, 5]).max())
+        # The preset's cross-talk is 0.25 N per N m, and the handle stands 0.1 m off the sensor.
+        error = 1e-12 if exact else 0.5
+        np.testing.assert_allclose(read, in_sensor_frame(felt, mount), atol=error)
+        back = in_base_frame(read, mount)[:, :2]
+        np.testing.assert_allclose(observations["automation"]["force"], back, atol=1e-12)
+    assert twisted > 0.05, "the wrist hands over torque"
+    env.close()
 
 
 def walk(env, twist, force=(0.0, 0.0)):

@@ -28,8 +28,9 @@ PATH = Path(((0.0, 0.0), (10.0, 0.0)))
 HERE, BESIDE = (0.0, 0.0, 0.0), (-0.1, -0.65, 0.0)
 
 
-def seen(world, seat="human", base=HERE, human=BESIDE, time=0.0, front=0.28):
-    rows = Eyes(world, seat, front).look(base, human, time)
+def seen(world, seat="human", base=HERE, human=BESIDE, time=0.0, eye=None):
+    places = {"human": (0.0, 0.0, 1.64), "automation": (0.28, 0.0, 1.2)}
+    rows = Eyes(world, seat, eye or places[seat]).look(base, human, time)
     return rows[rows[:, 0] > 0.0]
 
 
@@ -151,29 +152,98 @@ def test_discs_cover_a_rectangle_and_little_more(half_length, half_width, yaw, u
     assert discs[:, 2].max() <= math.sqrt(2.0) * min(half_length, half_width) + 1e-9
 
 
-points = st.tuples(st.floats(-5, 5), st.floats(-5, 5))
+points = st.tuples(st.floats(-5, 5), st.floats(-5, 5), st.floats(0.0, 3.0))
 
 
-@given(points, points, st.floats(0.1, 2.0), st.floats(0.1, 2.0), st.floats(-3.2, 3.2))
-def test_a_line_through_a_rectangle_is_one_with_a_point_inside(eye, point, length, width, yaw):
-    eye, point = np.array(eye), np.array(point)
+def lowest_inside(eye, point, inside):
+    """How high the line is at its lowest above a footprint, and how deep it goes in, sampled."""
+    way = np.array(eye) + np.linspace(0.0, 1.0, 4001)[:, None] * np.subtract(point, eye)
+    depth = inside(way[:, :2] - (0.3, -0.2))
+    return way[depth < 0.0, 2].min(initial=math.inf), depth.min()
+
+
+def holds(hides, eye, point, occluder, inside):
+    """A line is hidden that passes above the footprint lower than the occluder is high."""
+    lowest, depth = lowest_inside(eye, point, inside)
+    if abs(depth) > 0.01 and abs(lowest - occluder.height) > 0.01:  # sampling decides no closer
+        assert (hides(eye, point, [occluder]) is occluder) == (lowest < occluder.height)
+        assert not hides(eye, point, [occluder], itself=0)
+
+
+@given(
+    points,
+    points,
+    st.floats(0.1, 2.0),
+    st.floats(0.1, 2.0),
+    st.floats(-3.2, 3.2),
+    st.floats(0.1, 3.0),
+)
+def test_a_line_through_a_box_is_one_with_a_point_inside(eye, point, length, width, yaw, height):
     cos, sin = math.cos(yaw), math.sin(yaw)
-    screen = Screen(0, 0.3, -0.2, cos, sin, length, width)
-    way = eye + np.linspace(0.0, 1.0, 2001)[:, None] * (point - eye) - (0.3, -0.2)
-    along = np.abs(way @ (cos, sin)) - length
-    across = np.abs(way @ (-sin, cos)) - width
-    depth = np.maximum(along, across).min()
-    if abs(depth) > 0.01:  # sampling decides nothing closer than that
-        assert (behind_screen(eye, point, [screen]) is screen) == (depth < 0.0)
-        assert not behind_screen(eye, point, [screen], itself=0)
+
+    def inside(way):
+        along, across = np.abs(way @ (cos, sin)) - length, np.abs(way @ (-sin, cos)) - width
+        return np.maximum(along, across)
+
+    holds(behind_screen, eye, point, Screen(0, 0.3, -0.2, cos, sin, length, width, height), inside)
 
 
-@given(points, points, st.floats(0.1, 2.0))
-def test_a_line_through_a_disc_is_one_with_a_point_inside(eye, point, radius):
-    eye, point = np.array(eye), np.array(point)
-    way = eye + np.linspace(0.0, 1.0, 2001)[:, None] * (point - eye) - (0.3, -0.2)
-    depth = np.hypot(*way.T).min() - radius
-    if abs(depth) > 0.01:
-        pillar = Pillar(0, 0.3, -0.2, radius)
-        assert (behind_pillar(eye, point, [pillar]) is pillar) == (depth < 0.0)
-        assert not behind_pillar(eye, point, [pillar], itself=0)
+@given(points, points, st.floats(0.1, 2.0), st.floats(0.1, 3.0))
+def test_a_line_through_a_cylinder_is_one_with_a_point_inside(eye, point, radius, height):
+    pillar = Pillar(0, 0.3, -0.2, radius, height)
+    holds(behind_pillar, eye, point, pillar, lambda way: np.hypot(*way.T) - radius)
+
+
+ACROSS = {"x": 3.0, "y": 0.0, "length": 0.4, "width": 2.0, "seen_by": ()}
+TALL = Furniture(6.0, 0.0, 0.3, 0.3, kind="cupboard")
+
+
+@pytest.mark.parametrize(
+    ("kind", "behind", "sees"),
+    [
+        # From 1.64 m the line over the table's far edge is 0.53 m high at x = 4, 0 at x = 5.9 m.
+        ("table", Obstacle(4.0, 0.0, 0.2, "bin", height=0.4), False),
+        ("table", Obstacle(4.0, 0.0, 0.2, "bin", height=0.6), True),
+        ("table", Obstacle(4.0, 0.0, 0.2), False),  # a puddle behind it
+        ("table", Obstacle(8.0, 0.0, 0.2), True),  # and one that is far enough behind it
+        ("table", TALL, True),
+        ("table", Pedestrian(((6.0, 0.0), (7.0, 0.0)), start_time=9.0), True),
+        ("cupboard", TALL, False),
+        ("cupboard", Furniture(6.0, 0.0, 0.3, 0.3, height=2.4), True),
+        ("cupboard", Pedestrian(((6.0, 0.0), (7.0, 0.0)), start_time=9.0), False),
+        ("wall", Pedestrian(((6.0, 0.0), (7.0, 0.0)), start_time=9.0), False),
+    ],
+)
+def test_one_looks_over_what_is_lower_at_what_is_tall_enough(kind, behind, sees):
+    between = {"walls": (Wall((3.0, -1.0), (3.0, 1.0)),)}
+    if kind != "wall":
+        between = {"furniture": (Furniture(**ACROSS, kind=kind),)}
+    section = {Obstacle: "obstacles", Furniture: "furniture", Pedestrian: "pedestrians"}
+    name = section[type(behind)]
+    world = World(PATH, **(between | {name: (*between.get(name, ()), behind)}))
+    rows = seen(world, human=(0.0, 0.0, 0.0))
+    assert np.any(np.abs(rows[:, 2]) < 0.01) == sees
+
+
+def test_a_tall_person_sees_over_what_hides_from_a_child_and_a_low_camera():
+    counter = Furniture(**ACROSS, height=1.2)
+    world = World(PATH, furniture=(counter, TALL))
+    # From h to the cupboard's 1.8 m, above the counter's near edge at h + (1.8 - h) 2.8 / 6.
+    for height, sees in ((1.87, True), (0.70, True), (0.66, False), (0.3, False)):
+        assert bool(len(seen(world, human=HERE, eye=(0.0, 0.0, height)))) == sees
+
+
+def test_heights_that_are_not_given_are_those_of_the_kind_and_are_written_out():
+    assert Furniture(0.0, 0.0, 1.0, 1.0, kind="cupboard").height == 1.8
+    assert Furniture(0.0, 0.0, 1.0, 1.0, kind="cupboard", height=1.1).top == 1.1
+    assert Furniture(0.0, 0.0, 1.0, 1.0).top == Obstacle(0.0, 0.0, 0.1, "crate").top == 0.8
+    assert Obstacle(0.0, 0.0, 0.1).top == 0.0
+
+
+def test_eyes_go_with_the_bodies():
+    world = World(PATH, obstacles=(Obstacle(3.0, 0.0, 0.2),), view_range=ViewRange(1.0, 1.0))
+    turned = (3.0, -1.5, math.pi / 2)
+    assert not len(seen(world, "automation", base=turned, eye=(0.0, 0.0, 1.0)))
+    assert len(seen(world, "automation", base=turned, eye=(0.6, 0.0, 1.0)))
+    assert len(seen(world, "human", human=turned, eye=(0.6, 0.0, 1.0)))
+    assert not len(seen(world, "human", human=turned, eye=(0.0, 0.6, 1.0)))

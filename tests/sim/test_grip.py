@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from cowalk.sim.errors import InputError
 from cowalk.sim.grip import Bushing, GripParameters
-from cowalk.sim.wrench import SensorMount, in_sensor_frame
+from cowalk.sim.urdf import rotation
+from cowalk.sim.wrench import SensorMount, in_base_frame, in_sensor_frame
 
 small = st.floats(-0.02, 0.02)
 angles = st.floats(-3.0, 3.0)
@@ -77,3 +78,31 @@ def test_power_does_not_depend_on_the_frame(rpy, position):
     there = turn @ (velocity + np.cross(rate, position))
     power = wrench[:, :3] @ velocity + wrench[:, 3:] @ rate
     np.testing.assert_allclose(seen[:, :3] @ there + seen[:, 3:] @ (turn @ rate), power, atol=1e-9)
+
+
+@given(st.tuples(angles, angles, angles), st.tuples(small, small, small))
+def test_the_way_back_is_the_inverse(rpy, position):
+    wrench, mount = np.random.default_rng(0).normal(size=(2, 3, 6)), SensorMount(position, rpy)
+    seen = in_sensor_frame(wrench, mount)
+    np.testing.assert_allclose(in_base_frame(seen, mount), wrench, atol=1e-9)
+    np.testing.assert_allclose(
+        in_sensor_frame(in_base_frame(wrench, mount), mount), wrench, atol=1e-9
+    )
+    for one, frame in ((wrench[0, 0], seen[0, 0]), (wrench[:1, 1], seen[:1, 1])):
+        np.testing.assert_allclose(in_sensor_frame(one, mount), frame, atol=1e-9)
+
+
+@given(st.tuples(angles, angles, angles), st.tuples(small, small, small))
+def test_forces_turn_with_the_frame_and_torques_move_with_its_origin(rpy, position):
+    mount, rng = SensorMount(position, rpy), np.random.default_rng(1)
+    force, torque = rng.normal(size=(2, 3))
+    seen = in_sensor_frame(np.concatenate((force, torque)), mount)
+    turn = rotation(*rpy)
+    np.testing.assert_allclose(turn @ seen[:3], force, atol=1e-9)
+    np.testing.assert_allclose(turn @ seen[3:], torque - np.cross(position, force), atol=1e-9)
+
+
+def test_at_the_handle_nothing_changes():
+    wrench = np.random.default_rng(0).normal(size=(4, 6))
+    assert in_sensor_frame(wrench, SensorMount()) is wrench
+    assert in_base_frame(wrench, SensorMount()) is wrench

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
 
+from cowalk.sim import topview
 from cowalk.sim.path import Path
-from cowalk.sim.plant import PlantState
-from cowalk.sim.topview import BASE, FLOOR, FORCE, HUMAN, PASSER, PUDDLE, SOLID, WALL, draw
+from cowalk.sim.plant import PLAIN_BODIES, PlantState
+from cowalk.sim.topview import BASE, FLOOR, FORCE, HUMAN, PASSER, PUDDLE, SOLID, WALL
 from cowalk.sim.world import Corridor, Doorway, Furniture, Obstacle, Pedestrian, SideCorridor, World
 
 WORLD = World(
@@ -20,7 +21,12 @@ WORLD = World(
 
 
 def state(force=(0.0, 0.0), theta=0.0):
-    return PlantState((1.0, 0.0, theta), (0.8, 0.0), (0.9, -0.65, theta), np.array([force]))
+    wrench = np.array([[*force, 0.0, 0.0, 0.0, 0.0]])
+    return PlantState((1.0, 0.0, theta), (0.8, 0.0), (0.9, -0.65, theta), wrench)
+
+
+def draw(world, state, width, height, bodies=PLAIN_BODIES):
+    return topview.draw(world, state, bodies, width, height)
 
 
 def where(picture, colour):

@@ -10,6 +10,7 @@ from cowalk.sim.bullet_world import EngineClearance
 from cowalk.sim.clearance import Clearance
 from cowalk.sim.errors import InputError
 from cowalk.sim.footprint import walls
+from cowalk.sim.outline import disc
 from cowalk.sim.path import Path
 from cowalk.sim.plants import PLANTS
 from cowalk.sim.world import (
@@ -35,13 +36,22 @@ RICH = World(
 )
 
 
+def engine_clearance(world, *radii):
+    return EngineClearance(world, [*enumerate(map(disc, radii))])
+
+
 @pytest.fixture(params=[Clearance, EngineClearance])
 def measure(request):
     made = []
 
     def build(world, *radii):
-        made.append(request.param(world, radii))
-        return made[-1]
+        exact = request.param is Clearance
+        made.append(Clearance(world, radii) if exact else engine_clearance(world, *radii))
+
+        def measured(time, *places):
+            return made[-1](time, *((*place[:2], 0.0) for place in places))
+
+        return measured
 
     yield build
     for clearance in made:
@@ -120,15 +130,16 @@ def test_pedestrians_come_nearer(measure):
 
 def test_both_plants_measure_alike_within_a_millimetre():
     rng = np.random.default_rng(5)
-    exact, engine = Clearance(RICH, (0.28, 0.22)), EngineClearance(RICH, (0.28, 0.22))
+    exact, engine = Clearance(RICH, (0.28, 0.22)), engine_clearance(RICH, 0.28, 0.22)
     base = np.array([0.0, 0.0])
     for step in range(1500):
         # Wander in small steps, as a run does, and jump now and then, as a reset does.
         jump = step % 50 == 0
         base = rng.uniform((-2, -1.9), (22, 6)) if jump else base + rng.normal(0.0, 0.05, 2)
         human = base + np.array((-0.1, -0.65))
-        nearest, touching = exact(0.05 * step, tuple(base), tuple(human))
-        by_engine, engine_touching = engine(0.05 * step, tuple(base), tuple(human))
+        poses = (*base, 0.3), (*human, -0.2)
+        nearest, touching = exact(0.05 * step, *poses)
+        by_engine, engine_touching = engine(0.05 * step, *poses)
         assert by_engine == pytest.approx(nearest, abs=1e-3)
         assert touching == engine_touching or abs(nearest) < 1e-3
     engine.close()
@@ -174,9 +185,9 @@ def test_engine_worlds_are_given_back_and_used_again_empty():
     world = World(PATH, obstacles=(Obstacle(3.0, 0.0, 0.5, "pillar"),))
     clients = set()
     for _ in range(30):
-        full, empty = EngineClearance(world, (0.3,)), EngineClearance(World(PATH), (0.3,))
-        assert full(0.0, (1.0, 0.0))[0] == pytest.approx(1.2, **NEAR)
-        assert empty(0.0, (1.0, 0.0))[0] == math.inf
+        full, empty = engine_clearance(world, 0.3), engine_clearance(World(PATH), 0.3)
+        assert full(0.0, (1.0, 0.0, 0.0))[0] == pytest.approx(1.2, **NEAR)
+        assert empty(0.0, (1.0, 0.0, 0.0))[0] == math.inf
         clients |= {full._client, empty._client}
         for clearance in (full, empty, full):
             clearance.close()

@@ -1,0 +1,110 @@
+"""What is wrong with a start at which the pair cannot stand, and where it could."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from .clearance import Distances
+from .outline import Bodies
+from .world import World
+
+Pose = tuple[float, float, float]
+
+STEP, STEPS = 0.05, 60
+"""Of the search for a place that is free, m, and how many of them it goes."""
+_AWAY = (1e6, 1e6, 0.0)
+
+
+def blocked_start(
+    world: World,
+    bodies: Bodies,
+    poses: tuple[Pose, ...],
+    distances: Callable[[World], Distances],
+) -> str:
+    """Return which body touches what at the start, and where nearby the pair could stand.
+
+    Parameters
+    ----------
+    world : World
+    bodies : Bodies
+    poses : tuple of (x, y, theta)
+        Of the bodies at the world's start, in which something solid is touched.
+    distances : callable
+        Returns what measures distances in a world, good until it is called again.
+    """
+    start = list(world.start)
+    deepest = 0.0
+    said = "something solid is touched"
+    for what, alone in _parts(world):
+        measure = distances(alone)
+        for number, name in enumerate(bodies.outlines):
+            placed = [pose if n == number else _AWAY for n, pose in enumerate(poses)]
+            clearance, touching = measure(0.0, *placed)
+            if touching and clearance < deepest:
+                deepest = clearance
+                said = f"the {name} is {-clearance:.2g} m inside {what}"
+    return f"world.start = {start}: {said}; {_cure(world, bodies, poses, distances(world))}"
+
+
+def _parts(world: World) -> list[tuple[str, World]]:
+    """Return every solid thing by its key, and a world with nothing else in it."""
+    empty = World(world.path, start=world.start)
+    found = []
+    corridor = world.corridor
+    if corridor is not None:
+        # Doorways end at the corridor's walls, and side corridors open them.
+        bare = replace(corridor, doorways=())
+        found.append(
+            (f"a wall of world.corridor (width = {bare.width:g})", replace(empty, corridor=bare))
+        )
+        found += [
+            (
+                f"world.corridor.doorways.{n}",
+                replace(empty, corridor=replace(bare, doorways=(door,))),
+            )
+            for n, door in enumerate(corridor.doorways)
+        ]
+    found += [
+        (f"world.walls.{n}", replace(empty, walls=(wall,))) for n, wall in enumerate(world.walls)
+    ]
+    found += [
+        (f"world.obstacles.{n} ({thing.kind})", replace(empty, obstacles=(thing,)))
+        for n, thing in enumerate(world.obstacles)
+        if thing.solid
+    ]
+    found += [
+        (f"world.furniture.{n} ({item.kind})", replace(empty, furniture=(item,)))
+        for n, item in enumerate(world.furniture)
+    ]
+    found += [
+        (f"world.pedestrians.{n}", replace(empty, pedestrians=(walker,)))
+        for n, walker in enumerate(world.pedestrians)
+    ]
+    return found
+
+
+def _cure(world: World, bodies: Bodies, poses: tuple[Pose, ...], measure: Distances) -> str:
+    x, y, theta = world.start
+    half = world.corridor.width / 2.0 if world.corridor else math.inf
+    shifts = [
+        (STEP * along, STEP * aside)
+        for along in range(-STEPS, STEPS + 1)
+        for aside in range(-STEPS, STEPS + 1)
+        if along == 0 or aside == 0
+    ]
+    for dx, dy in sorted(shifts, key=lambda shift: abs(shift[0]) + abs(shift[1])):
+        moved = [(px + dx, py + dy, yaw) for px, py, yaw in poses]
+        if all(abs(py) < half for _, py, _ in moved) and not measure(0.0, *moved)[1]:
+            free = [round(x + dx, 3), round(y + dy, 3), theta]
+            return f"{free} would be free"
+    outlines = bodies.outlines.values()
+    corners = np.concatenate([o.at(pose) for o, pose in zip(outlines, poses, strict=True)])
+    breadth = np.ptp(corners @ (-math.sin(theta), math.cos(theta)))
+    return (
+        f"nothing within {STEP * STEPS:g} m along x or y is free: "
+        f"the {' and the '.join(bodies.outlines)} take {breadth:.2f} m across"
+    )
