@@ -22,23 +22,33 @@ SITUATION = Situation(
     Path(((0.0, 0.0), (30.0, 0.0))), 0.8, TwistBounds((0.0, -0.5), (1.2, 0.5)), 0.05
 )
 STEPS = 160
+_CURE = "return np.array([a, b]), one number for v, one for omega"
+_SCALARS = ("utility_loss", "target_utility", "interaction", "interaction_smoothed")
 
 
 class Broken(Exception):
     """A fault after which the walk cannot go on."""
 
 
-def observations(size: float) -> Iterator[Observation]:
-    """Yield a made-up walk past a puddle; ``size`` scales all that is not steady in it."""
+def observations(motion: float, push: float) -> Iterator[Observation]:
+    """Yield a made-up walk past a puddle.
+
+    Parameters
+    ----------
+    motion : float
+        Scales how far the base's twist swings about a steady walk, 1.
+    push : float
+        Scales the measured force, 1.
+    """
     pose = np.array([0.0, 0.2, 0.0])
     for step in range(STEPS):
         time = step * SITUATION.period
-        v, omega = 0.7 + 0.2 * size * np.sin(2.0 * time), 0.25 * size * np.cos(1.4 * time)
+        v, omega = 0.7 + 0.2 * motion * np.sin(2.0 * time), 0.25 * motion * np.cos(1.4 * time)
         pose = pose + SITUATION.period * np.array([v, v * np.sin(pose[2]), omega])
         puddle = np.zeros((OBSTACLE_ROWS, OBSTACLE_COLUMNS))
         puddle[0, :4] = (1.0, 4.0 - pose[0], -0.6 - pose[1], 0.3)
-        force = np.array([1.5 * size * np.sin(time), 3.0 * size * np.cos(0.9 * time)])
-        wrist = 0.2 * size * np.sin(0.7 * time)
+        force = push * np.array([1.5 * np.sin(time), 3.0 * np.cos(0.9 * time)])
+        wrist = 0.2 * push * np.sin(0.7 * time)
         yield Observation(
             twist=np.array([v, omega]),
             force=np.tile(force, (12, 1)),
@@ -49,6 +59,30 @@ def observations(size: float) -> Iterator[Observation]:
             obstacles=puddle,
             time=np.array([time]),
         )
+
+
+def require_pair(what: str, value: Any, cure: str) -> None:
+    """Raise `Broken` unless a value is an array of two numbers.
+
+    Parameters
+    ----------
+    what : str
+        What was returned where, for the message.
+    value : object
+    cure : str
+        What to return instead.
+    """
+    if not isinstance(value, np.ndarray):
+        raise Broken(f"{what} {_brief(value)}, no NumPy array: {cure}")
+    if value.shape != (2,):
+        raise Broken(f"{what} an array of shape {value.shape}: {cure}")
+    if value.dtype.kind not in "fiu":
+        raise Broken(f"{what} an array of {value.dtype} instead of numbers: {cure}")
+
+
+def _brief(value: Any) -> str:
+    text = " ".join(repr(value).split())
+    return text if len(text) <= 60 else f"{text[:57]}..."
 
 
 def force_faults(force: Array) -> Iterator[str]:
@@ -65,11 +99,11 @@ def force_faults(force: Array) -> Iterator[str]:
 def truth_faults(truth: Any) -> Iterator[str]:
     """Yield what is wrong with a `Truth`."""
     if not isinstance(truth, Truth):
-        raise Broken(f"truth returned {truth!r}: return Truth(wish=..., stubbornness=...)")
+        cure = "return Truth(wish=np.array([v, omega]), stubbornness=np.array([s_v, s_omega]))"
+        raise Broken(f"truth returned {_brief(truth)}: {cure}")
     for name in ("wish", "stubbornness"):
-        value = np.asarray(getattr(truth, name))
-        if value.shape != (2,):
-            raise Broken(f"truth().{name} has shape {value.shape}: one number for v, one for omega")
+        value = getattr(truth, name)
+        require_pair(f"truth().{name} is", value, _CURE)
         if not np.isfinite(value).all():
             yield f"truth().{name} is not finite: report what the model wants at every step"
     if ((truth.stubbornness < 0.0) | (truth.stubbornness > 1.0)).any():
@@ -93,11 +127,15 @@ def twist_faults(twist: Array) -> Iterator[str]:
 def belief_faults(belief: Any) -> Iterator[str]:
     """Yield what is wrong with a `Belief`."""
     if not isinstance(belief, Belief):
-        raise Broken(f"belief returned {belief!r}: return Belief(), NaN where there is no opinion")
+        cure = "return Belief(), NaN where there is no opinion"
+        raise Broken(f"belief returned {_brief(belief)}: {cure}")
     for name in ("stubbornness", "stubbornness_smoothed", "human_wish", "wish"):
-        shape = np.shape(getattr(belief, name))
-        if shape != (2,):
-            raise Broken(f"belief().{name} has shape {shape}: one number for v, one for omega")
+        require_pair(f"belief().{name} is", getattr(belief, name), _CURE)
+    for name in (*_SCALARS, "negotiation"):
+        value = np.asarray(getattr(belief, name))
+        if value.ndim or value.dtype.kind not in "fiu":
+            cure = "return one number" + ("" if name == "negotiation" else ", NaN for no opinion")
+            raise Broken(f"belief().{name} is {_brief(getattr(belief, name))}: {cure}")
     within = {"stubbornness": (0.0, 1.0), "stubbornness_smoothed": (0.0, 1.0)}
     within |= {"utility_loss": (0.0, 1.0), "target_utility": (0.0, 1.0)}
     within |= {"interaction": (-2.0, 2.0), "interaction_smoothed": (-2.0, 2.0)}

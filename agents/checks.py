@@ -22,14 +22,15 @@ from .check_rules import (
     belief_faults,
     force_faults,
     observations,
+    require_pair,
     truth_faults,
     twist_faults,
 )
 from .interfaces import Observation
 
 _OUTPUT = {
-    "human": "return the hand force on the base [fx, fy] in N",
-    "automation": "return the twist [v, omega] in m/s and rad/s",
+    "human": "return the hand force on the base in N, np.array([fx, fy])",
+    "automation": "return the twist in m/s and rad/s, np.array([v, omega])",
 }
 
 
@@ -39,7 +40,8 @@ def check_human(human: Any) -> None:
     It is walked for 8 s beside a made-up base that turns and pushes. Checked are: shapes,
     finite and plausible forces, truth within [0, 1], repetition after a reset with an equal
     generator, global random state and observations left alone, and a force that answers the
-    base's motion unless the class says ``closed_loop = False``.
+    base's motion, the measured force being the same, unless the class says
+    ``closed_loop = False``.
 
     Parameters
     ----------
@@ -57,8 +59,8 @@ def check_human(human: Any) -> None:
 def check_automation(automation: Any) -> None:
     """Check that an object keeps the protocol `Automation`.
 
-    As `check_human`; the twist must lie within the situation's bounds and answer the walk, and
-    the belief must lie within its ranges.
+    As `check_human`; the twist must lie within the situation's bounds and answer the base's
+    motion or the measured force, and the belief must lie within its ranges.
 
     Parameters
     ----------
@@ -113,9 +115,12 @@ def _problems(part: Any, seat: str, report: str, outputs: Faults, reports: Fault
     states = _global_states()
     found: dict[str, None] = {}  # each fault once, in order
     try:
-        first = _walk(part, seat, report, 1.0, outputs, reports, found)
-        again = _walk(part, seat, report, 1.0, outputs, reports, found)
-        calmer = _walk(part, seat, report, 0.3, outputs, reports, found)
+        first, again = (
+            _walk(part, seat, report, (1.0, 1.0), outputs, reports, found) for _ in range(2)
+        )
+        # A human must answer how the base moves; an automation may answer the push alone.
+        other = (0.3, 1.0 if seat == "human" else 0.3)
+        calmer = _walk(part, seat, report, other, outputs, reports, found)
     except Broken as error:
         return [*found, str(error)]
     problems = list(found)
@@ -136,10 +141,11 @@ def _problems(part: Any, seat: str, report: str, outputs: Faults, reports: Fault
 
 def _loop_faults(part: Any, seat: str, answers: bool) -> Iterator[str]:
     output = "force" if seat == "human" else "twist"
+    felt, motion = ("", "'s twist or pose") if seat == "human" else (" and is pushed", "")
     if getattr(part, "closed_loop", True) and not answers:
         yield (
-            f"its {output} is the same however the base moves: use the observation, or say "
-            "closed_loop = False in the class"
+            f"its {output} is the same however the base moves{felt}: use the observation"
+            f"{motion}, or say closed_loop = False in the class"
         )
     elif not getattr(part, "closed_loop", True) and answers:
         yield f"it says closed_loop = False, yet its {output} answers the base: leave that out"
@@ -154,29 +160,27 @@ def _walk(
     part: Any,
     seat: str,
     report: str,
-    size: float,
+    sizes: tuple[float, float],
     outputs: Faults,
     reports: Faults,
     found: dict[str, None],
 ) -> Array:
     """Step a part through one walk; return outputs, and note every fault.
 
-    ``size`` scales how much the base moves to and fro, and how hard it is pushed.
+    ``sizes`` scale how much the base moves to and fro, and how hard it is pushed.
     """
     step, verb = 0, "reset"
     kept: list[tuple[Array, Array]] = []
     try:
         part.reset(np.random.default_rng(7), SITUATION)
-        for seen in observations(size):
+        for seen in observations(*sizes):
             before = {key: value.copy() for key, value in seen.items()}  # type: ignore[attr-defined]
             verb = "act"
             output = part.act(seen)
             for key, value in before.items():
                 if not np.array_equal(seen[key], value):  # type: ignore[literal-required]
                     found[f"act changes observation[{key!r}]: work on a copy"] = None
-            if not isinstance(output, np.ndarray) or output.shape != (2,):
-                got = f"shape {output.shape}" if isinstance(output, np.ndarray) else repr(output)
-                raise Broken(f"act returned {got}: {_OUTPUT[seat]}, an array of shape (2,)")
+            require_pair("act returned", output, _OUTPUT[seat])
             found |= dict.fromkeys(outputs(output))
             kept.append((output, output.copy()))
             verb = report

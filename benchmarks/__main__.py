@@ -34,6 +34,13 @@ SUBJECTS = {
 }
 
 
+def verdict(value: float, target: tuple[str, float]) -> tuple[str, str]:
+    """Return a target, ``("at most" or "at least", limit)``, in words, and whether it is met."""
+    side, limit = target
+    met = value <= limit if side == "at most" else value >= limit
+    return f"{side} {limit:g}", "met" if met else "missed"
+
+
 def main() -> None:
     """Measure subjects and print a table each."""
     console = Console()
@@ -42,9 +49,12 @@ def main() -> None:
         sys.exit(f"unknown subject {unknown[0]!r}; known: {', '.join(SUBJECTS)}")
     for title in chosen:
         measure = SUBJECTS[title]
-        table = Table("measurement", "value", "unit", title=title, title_justify="left")
-        for what, value, unit in measure():
-            table.add_row(what, f"{value:.3g}", unit)
+        rows = [(*row, None) if len(row) == 3 else row for row in measure()]
+        judged = any(target for *_, target in rows)
+        heads = ("measurement", "value", "unit", *(("target", "") if judged else ()))
+        table = Table(*heads, title=title, title_justify="left")
+        for what, value, unit, target in rows:
+            table.add_row(what, f"{value:.3g}", unit, *(verdict(value, target) if target else ()))
         console.print(table)
 
 

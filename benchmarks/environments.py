@@ -12,6 +12,7 @@ from cowalk.scenarios.loading import load
 from cowalk.scenarios.runner import make_env
 from cowalk.sim.bullet import BulletPlant
 from cowalk.sim.bullet_engine import connect, disconnect
+from cowalk.sim.drive import DRIVES, DriveParameters
 from cowalk.sim.env import STRAIGHT_CORRIDOR
 from cowalk.sim.plant import Rates
 
@@ -21,6 +22,7 @@ COUNTS = (1, 4, 16)
 STEPS = 320
 """Control steps in all, shared by the environments of a count."""
 CYCLES = 1000
+"""Plants that are made and closed, of each drive."""
 
 
 def measure() -> list[tuple[str, float, str]]:
@@ -56,22 +58,29 @@ def _coming_and_going() -> list[tuple[str, float, str]]:
         pages = int(Path("/proc/self/statm").read_text().split()[1])
         return pages * os.sysconf("SC_PAGE_SIZE")
 
-    def cycle() -> None:
-        plant = BulletPlant(Rates())
-        plant.reset(STRAIGHT_CORRIDOR, np.random.default_rng(0))
-        plant.step((0.8, 0.0), (0.0, 0.0))
-        plant.close()
+    def next_client() -> int:
+        client = connect()
+        disconnect(client)
+        return client
 
-    for _ in range(50):
-        cycle()
-    gc.collect()
-    before = memory()
-    for _ in range(CYCLES):
-        cycle()
-    gc.collect()
-    client = connect()
-    disconnect(client)
-    return [
-        (f"memory left by {CYCLES} create-close cycles", (memory() - before) / 1e6, "MB"),
-        (f"client id given out after {CYCLES} cycles", float(client), "1"),
-    ]
+    rows = []
+    for drive in DRIVES:
+
+        def cycle(drive: str = drive) -> None:
+            plant = BulletPlant(Rates(), drive=DriveParameters(kind=drive))
+            plant.reset(STRAIGHT_CORRIDOR, np.random.default_rng(0))
+            plant.step((0.8, 0.0), (0.0, 0.0))
+            plant.save()
+            plant.close()
+
+        for _ in range(50):
+            cycle()
+        gc.collect()
+        client, before = next_client(), memory()
+        for _ in range(CYCLES):
+            cycle()
+        gc.collect()
+        what = f"left by {CYCLES} create-close cycles, {drive}"
+        rows.append((f"memory {what}", (memory() - before) / 1e6, "MB"))
+        rows.append((f"clients {what}", float(next_client() - client), "1"))
+    return rows

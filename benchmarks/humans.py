@@ -21,6 +21,10 @@ from .timing import best
 SITUATION = Situation(WalkingPath(((0.0, 0.0), (30.0, 0.0))), 0.8, TwistBounds(), 0.05)
 STEPS = 50
 BATCH = 10_000
+STEP, CHEAPER = ("at most", 30.0), ("at least", 100.0)
+"""What a control step may cost, us, and how many times less a human of a batch costs."""
+FREE = ("game",)
+"""Models that may cost more, and say what they cost."""
 ROUNDS = 60
 """Many short ones: other work on the machine misses some of them."""
 
@@ -73,8 +77,8 @@ def reference() -> None:
         a - b
 
 
-def measure() -> list[tuple[str, float, str]]:
-    """Return rows of (what, value, unit)."""
+def measure() -> list[tuple[str, float, str, tuple[str, float] | None]]:
+    """Return rows of (what, value, unit, target)."""
     one, many = scene(), scene(BATCH)
     alone: dict[str, float] = {}
     batched: dict[str, float] = {}
@@ -90,11 +94,14 @@ def measure() -> list[tuple[str, float, str]]:
                 if getattr(human, "broadcasts", True):
                     cost = best(walking(human, many, 1), 1) / BATCH
                     batched[name] = min(batched.get(name, np.inf), cost)
-    rows = [("subtraction of two pairs", subtraction * 1e6, "us")]
+    rows: list[tuple[str, float, str, tuple[str, float] | None]] = []
+    rows.append(("subtraction of two pairs", subtraction * 1e6, "us", None))
     for name, cost in alone.items():
-        rows.append((f"{name}, a step", cost * 1e6, "us"))
-        rows.append((f"{name}, a step in subtractions", cost / subtraction, "1"))
+        rows.append((f"{name}, a step", cost * 1e6, "us", None if name in FREE else STEP))
+        rows.append((f"{name}, a step in subtractions", cost / subtraction, "1", None))
         if name in batched:
-            rows.append((f"{name}, a step in a batch", batched[name] * 1e6, "us a human"))
-            rows.append((f"{name}, times cheaper in a batch", cost / batched[name], "1"))
+            rows.append((f"{name}, a step in a batch", batched[name] * 1e6, "us a human", None))
+            rows.append((f"{name}, times cheaper in a batch", cost / batched[name], "1", CHEAPER))
+        else:
+            rows.append((f"{name} cannot be a batch", np.nan, "", None))
     return rows

@@ -11,12 +11,12 @@ from pydantic import ValidationError
 from cowalk.agents.registry import AUTOMATIONS, HUMANS, IMPERFECTIONS
 from cowalk.estimation.observers import OBSERVERS
 from cowalk.estimation.smoothing import SMOOTHERS
+from cowalk.sim.contact import blocked_start
 from cowalk.sim.errors import InputError
 from cowalk.sim.plants import PLANTS
 from cowalk.sim.registry import Registry
 from cowalk.sim.sensor import ForceSensor
 from cowalk.sim.sensor_parameters import SensorParameters, sensor_preset
-from cowalk.sim.start import blocked_start
 
 from .building import attempt, check_parameters, complete
 from .documents import Document, KeyPath, Problem, dotted

@@ -152,6 +152,7 @@ def _load(source: str, options: dict[str, str], assignments: list[str]) -> Scena
 
 def _report(result: RunResult, folder: Path, files: dict[str, str]) -> None:
     from .expectations import explain
+    from .results import how_it_ended
 
     summary = result.summary
     metrics = summary["metrics"]
@@ -174,7 +175,7 @@ def _report(result: RunResult, folder: Path, files: dict[str, str]) -> None:
         files = {"picture": str(picture)} | files
     for what, file in files.items():
         print(f"{what + ':':<9} {file}")
-    print(f"ended by: {summary['end']}")
+    print(f"ended by: {how_it_ended(summary)}")
     factor, wall = summary["real_time_factor"], summary["wall_time_s"]
     if factor is not None:
         print(f"speed:    {two_digits(factor)} times real time ({wall:.2f} s)")
@@ -261,19 +262,24 @@ def check(
 
     code = PASSED
     for file in files:
+        agent = ":" in file and not Path(file).exists()
         try:
-            if ":" in file and not Path(file).exists():
+            if agent:
                 found = cli_humans.agent_faults(file)
             else:
                 found = [str(fault) for fault in faults(find(file))]
         except InputError as error:
+            if agent:  # there is nothing to check
+                complain(str(error))
+                code = BAD_INPUT
+                continue
             found = [str(error)]
         print("\n".join(found) if found else f"{file}: no fault")
         code = BAD_INPUT if found else code
     return code
 
 
-cli_humans.register(app)
+cli_humans.register(app, lambda as_json: list_parts(Kind.HUMANS, as_json))
 cli_studies.register(app)
 
 

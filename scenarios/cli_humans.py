@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -13,9 +14,15 @@ from .cli_output import PASSED, emit_json, emit_table, progress_bar
 Json = Annotated[bool, typer.Option("--json", help="JSON alone on standard output.")]
 
 
-def register(app: typer.Typer) -> None:
-    """Add these commands to the command line."""
+def register(app: typer.Typer, list_models: Callable[[bool], int]) -> None:
+    """Add these commands to the command line; ``list_models`` prints the models' names."""
     humans = typer.Typer(rich_markup_mode=None, help="Look at human models and populations.")
+
+    @humans.command("list")
+    def list_humans(as_json: Json = False) -> int:
+        """List the human models; cowalk list also has imperfections and populations."""
+        return list_models(as_json)
+
     humans.command(
         epilog=(
             "\b\nExamples:\n"
@@ -134,9 +141,11 @@ def show(
     wanted = imperfection or []
     if not name and not wanted:
         raise InputError("name a human model, an --imperfection, or both; see cowalk list humans")
-    file = out or Path(
-        "runs", "humans", f"{'-'.join([name, *wanted]).strip('-')}.png".replace(":", ".")
-    )
+    file = out or Path("runs", "humans", "-".join([name, *wanted]).strip("-").replace(":", "."))
+    if out is None or not file.suffix:
+        file = file.with_name(f"{file.name}.png")
+    elif file.suffix.lower() != ".png":
+        raise InputError(f"--out {out}: pictures are PNG; write {file.with_suffix('.png')}")
     if name:
         points = show_human(name, wanted, assign or [], file)
         found: dict[str, Any] = {"fixed points": points}
@@ -147,8 +156,9 @@ def show(
         return PASSED
     print(f"picture:  {file}")
     if name:
-        listed = ", ".join(f"{point:.2f}" for point in found["fixed points"]) or "none"
-        print(f"concession = stubbornness in omega at: {listed}")
+        for dimension, points in found["fixed points"].items():
+            listed = ", ".join(f"{point:.2f}" for point in points) or "none"
+            print(f"concession = stubbornness in {dimension} at: {listed}")
     return PASSED
 
 
@@ -165,10 +175,12 @@ def table(
     as_json: Json = False,
 ) -> int:
     """Compare every human with every automation, with 95 % bootstrap intervals."""
-    from .human_table import compare_humans, header, row, write_table
+    from .human_table import NOTE, compare_humans, header, marked_document, row, write_table
     from .loading import load
 
     loaded = load(scenario, [f"plant={plant}"] if plant else [])
+    if write is not None:
+        marked_document(write)  # before the minutes that the runs take
     with progress_bar("comparing") as progress:
         cells = compare_humans(loaded, seeds, progress=progress)
     if write is not None:
@@ -179,9 +191,11 @@ def table(
                 "scenario": loaded.name,
                 "plant": loaded.plant.name,
                 "seeds": seeds,
+                "note": NOTE,
                 "cells": [dataclasses.asdict(cell) for cell in cells],
             }
         )
     else:
         emit_table(f"humans in {loaded.name}", header(), [row(cell) for cell in cells])
+        print(NOTE)
     return PASSED

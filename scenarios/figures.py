@@ -16,7 +16,8 @@ from cowalk.sim.motion import Array
 from .figures_panels import PAPER_PANELS, columns, draw_panels
 from .figures_paper import draw_paper_panels, draw_utility_loss
 from .figures_style import AGREED, FAULT, house_style, legend_above, new_figure, save
-from .figures_top_view import draw_top_view, window_of
+from .figures_top_view import draw_bodies, draw_top_view, window_of
+from .results import how_it_ended
 
 if TYPE_CHECKING:
     from .results import RunResult
@@ -101,7 +102,7 @@ def _early_end(result: RunResult) -> str | None:
     """Return why the run did not go its whole way, or None if it did."""
     if result.error is not None:
         return result.error or "no reason given"
-    return "collision" if result.summary.get("end") == "collision" else None
+    return how_it_ended(result.summary) if result.summary.get("end") == "collision" else None
 
 
 def _footer(result: RunResult) -> list[str]:
@@ -137,6 +138,7 @@ def _mark_closest(above: Axes, axis: Axes, data: dict[str, Array]) -> None:
 
 def _mark_end(above: Axes, axes: Sequence[Axes], result: RunResult, data: dict[str, Array]) -> None:
     end = float(data["t"][-1]) if len(data["t"]) else 0.0
+    draw_bodies(above, result, data, np.arange(len(data["t"]))[-1:], FAULT)
     # What is missing shows, but never shrinks what there is by more than a fifth.
     right = min(result.scenario.duration, 1.25 * end) if end else result.scenario.duration
     axes[0].set_xlim(0.0, max(right, 1.02 * end))

@@ -43,8 +43,8 @@ LEAST_FORCE = 1.0
 """A force axis shows at least this far from zero, N."""
 
 
-def draw_human(human: Human, bare: Human | None, title: str, file: Path) -> list[float]:
-    """Write the picture of a human as PNG, and return the fixed points of omega.
+def draw_human(human: Human, bare: Human | None, title: str, file: Path) -> dict[str, list[float]]:
+    """Write the picture of a human as PNG, and return the fixed points of v and of omega.
 
     Parameters
     ----------
@@ -56,7 +56,9 @@ def draw_human(human: Human, bare: Human | None, title: str, file: Path) -> list
     file : Path
     """
     settled = settled_stubbornness(human, CONCESSIONS)
-    meeting = fixed_points(CONCESSIONS, settled[:, 1])
+    meeting = {
+        name: fixed_points(CONCESSIONS, settled[:, i]) for i, name in enumerate(("v", "omega"))
+    }
     with house_style():
         figure = new_figure(WIDTH, HEIGHT, DPI)
         panels = figure.subplots(2, 2, width_ratios=(1.5, 1.0))
@@ -98,21 +100,22 @@ def draw_imperfection(
     """
     with house_style():
         figure = new_figure(WIDTH, HEIGHT, DPI)
-        above, below = figure.subplots(2, 1, height_ratios=(1.6, 1.0), sharex=True)
+        differences = [force - asked for force in given]
+        rows = [("sideways", 1, {"color": HUMAN})]
+        if np.any(differences[0][:, 0]):
+            rows.append(("forward", 0, {"color": HUMAN_FORWARD}))
+        ratios = (1.6, *(1.0 for _ in rows))
+        above, *below = figure.subplots(len(ratios), 1, height_ratios=ratios, sharex=True)
         above.step(time, asked[:, 1], where="post", color=MUTED, lw=3.0, alpha=0.6, label="asked")
         above.step(time, given[0][:, 1], where="post", color=HUMAN, label="given")
         _label(above, "sideways force, alone on a prescribed push", "N", True)
         legend_above(above)
-        for force in given[1:]:
-            below.step(time, (force - asked)[:, 1], where="post", color=MUTED, lw=0.6)
-        difference = given[0] - asked
-        forward = {"color": HUMAN_FORWARD, "ls": "--", "label": "forward"}
-        if np.any(difference[:, 0]):
-            below.step(time, difference[:, 0], where="post", **forward)
-        below.step(time, difference[:, 1], where="post", color=HUMAN, label="sideways")
-        _label(below, "given - asked", "N", False)
-        legend_above(below)
-        below.set_xlabel("time in s")
+        for axis, (name, column, style) in zip(below, rows, strict=True):
+            for difference in differences[1:]:
+                axis.step(time, difference[:, column], where="post", color=MUTED, lw=0.6)
+            axis.step(time, differences[0][:, column], where="post", **style)
+            _label(axis, f"given - asked, {name}", "N", False)
+        below[-1].set_xlabel("time in s")
         figure.suptitle(title, x=0.012, ha="left", size=10.0, parse_math=False)
     save(figure, file)
 
@@ -136,22 +139,30 @@ def _share_axis(axis: Axes) -> None:
     axis.set_ylim(-0.03, 1.03)
 
 
-def _settled_panel(axis: Axes, settled: Array, meeting: list[float]) -> None:
+def _settled_panel(axis: Axes, settled: Array, meeting: dict[str, list[float]]) -> None:
     """Draw settled stubbornness over concession, and where the paper's automation meets it."""
     axis.plot(CONCESSIONS, settled[:, 1], color=HUMAN, label="in ω")
     axis.plot(CONCESSIONS, settled[:, 0], color=HUMAN_FORWARD, ls="--", label="in v")
     axis.plot((0.0, 1.0), (0.0, 1.0), color=AUTOMATION, lw=1.0, label="paper")
-    axis.plot(meeting, meeting, "o", color=HUMAN_DARK, ms=6.0, clip_on=False, zorder=4.0)
-    for group in _close_together(meeting):
-        left = group[0] > 0.7
+    marks: dict[str, dict[str, Any]] = {
+        "v": {"mfc": "white", "mec": HUMAN_FORWARD, "mew": 1.6, "ms": 9.0, "zorder": 4.0},
+        "omega": {"color": HUMAN_DARK, "ms": 6.0, "zorder": 5.0},  # within the ring of v
+    }
+    for name, style in marks.items():
+        axis.plot(meeting[name], meeting[name], "o", ls="none", clip_on=False, **style)
+    found = sorted((p, "v" if name == "v" else "ω") for name in meeting for p in meeting[name])
+    for group in _close_together(found):
+        place = group[0][0]
+        left = place > 0.7
         axis.annotate(
-            ", ".join(f"{point:.2f}" for point in group),
-            (group[0], group[0]),
-            (-8 if left else 8, -4),
+            _points_text(group),
+            (place, place),
+            (-10 if left else 10, -4),
             textcoords="offset points",
             ha="right" if left else "left",
-            va="top" if group[0] > 0.1 else "bottom",
+            va="top" if place > 0.1 else "bottom",
             path_effects=halo(),
+            zorder=6.0,
         )
     _share_axis(axis)
     axis.set_xlabel("concession of the robot, held")
@@ -159,12 +170,20 @@ def _settled_panel(axis: Axes, settled: Array, meeting: list[float]) -> None:
     legend_above(axis)
 
 
-def _close_together(points: list[float]) -> list[list[float]]:
-    """Return rising points in groups that share a label."""
-    groups: list[list[float]] = []
+def _close_together(points: list[tuple[float, str]]) -> list[list[tuple[float, str]]]:
+    """Return rising points, each with its dimension, in groups that share a label."""
+    groups: list[list[tuple[float, str]]] = []
     for point in points:
-        if groups and point - groups[-1][-1] < 0.1:
+        if groups and point[0] - groups[-1][-1][0] < 0.1:
             groups[-1].append(point)
         else:
             groups.append([point])
     return groups
+
+
+def _points_text(group: list[tuple[float, str]]) -> str:
+    """Return a label: each dimension's values, or one value that both have."""
+    values = {name: [f"{p:.2f}" for p, of in group if of == name] for name in ("v", "ω")}
+    if values["v"] == values["ω"]:
+        return f"v, ω {', '.join(values['v'])}"
+    return ", ".join(f"{name} {', '.join(found)}" for name, found in values.items() if found)

@@ -106,7 +106,7 @@ def draw_top_view(axis: Axes, result: RunResult, data: dict[str, Array], window:
     )
     horizon = result.scenario.automation.negotiation.horizon
     times, rows, stride = _footprints(data["t"], horizon)
-    _draw_bodies(axis, result, data, rows)
+    draw_bodies(axis, result, data, rows)
     _draw_wishes(axis, data, rows[::stride], horizon)
     _draw_times(axis, result.outlines["base"], data, rows[::stride], times[::stride])
     axis.set_title("Top view")
@@ -174,7 +174,10 @@ def _footprints(t: Array, horizon: float) -> tuple[Array, Rows, int]:
     return times[first], rows, max(1, int(np.ceil(1.3 * horizon / interval)))
 
 
-def _draw_bodies(axis: Axes, result: RunResult, data: dict[str, Array], rows: Rows) -> None:
+def draw_bodies(
+    axis: Axes, result: RunResult, data: dict[str, Array], rows: Rows, colour: str | None = None
+) -> None:
+    """Draw the outlines of all bodies at some rows of a trace, in a colour or each in its own."""
     poses = {
         name: np.stack([data[column] for column in POSES[name]], axis=-1)[rows]
         for name in result.outlines
@@ -183,8 +186,15 @@ def _draw_bodies(axis: Axes, result: RunResult, data: dict[str, Array], rows: Ro
         bodies = [
             Polygon(outline.at(pose)) for pose in poses[name].tolist() if np.isfinite(pose).all()
         ]
-        look = {"facecolor": "none", "edgecolor": OUTLINE_COLOURS[name], "lw": 0.7, "alpha": 0.6}
-        axis.add_collection(PatchCollection(bodies, zorder=3, **look), autolim=False)
+        shapes = PatchCollection(
+            bodies,
+            facecolor="none",
+            edgecolor=colour or OUTLINE_COLOURS[name],
+            lw=0.7,
+            alpha=0.6,
+            zorder=3,
+        )
+        axis.add_collection(shapes, autolim=False)
     base, human = poses["base"][:, :2], poses["human"][:, :2]
     # The arm: which two footprints belong together.
     arms = np.stack((base, human), axis=1)

@@ -19,7 +19,7 @@ from .schema import HumanComponent
 from .wording import validate
 
 PLANT = "unicycle"
-RUNS = 5
+RUNS = 3
 """Runs of an imperfection that draws, of which one is drawn boldly."""
 
 
@@ -48,8 +48,8 @@ def human_section(
 
 def show_human(
     name: str, imperfections: Sequence[str], assignments: Sequence[str], file: Path
-) -> list[float]:
-    """Write the picture of a human model, and return its fixed points in omega.
+) -> dict[str, list[float]]:
+    """Write the picture of a human model, and return its fixed points in v and in omega.
 
     Parameters
     ----------

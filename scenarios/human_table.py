@@ -30,7 +30,15 @@ Gait ripple is not among them: at +- 3 N it is as large as what the models diffe
 """
 SHIFT = (1.0, 0.3)
 """How far the obstacles are moved at most from seed to seed, along x and y, m."""
-METRICS = {"mean force": "N", "effort": "N s", "time to agreement": "s"}
+METRICS = {"mean force": "N", "effort": "N s", "effort a metre": "N s/m", "time to agreement": "s"}
+"""What is compared, and its unit; effort also by the metre walked, since runs differ in length."""
+EARLY = ("collision", "grip lost")
+"""Ends of a run that cut it short."""
+NOTE = (
+    "Time to agreement: over the runs that reached it. Runs that ended early are shorter, and so "
+    "is the time over which their effort adds up: compare that by the metre."
+)
+"""What a reader of the table must know."""
 CONFIDENCE = 0.95
 MARK = "humans-table"
 
@@ -54,11 +62,21 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Cell:
-    """One human with one automation: an `Estimate` by the name of each of `METRICS`."""
+    """One human with one automation.
+
+    Attributes
+    ----------
+    human, automation : str
+    metrics : dict
+        `Estimate` by the name of each of `METRICS`.
+    ended_early : dict
+        Number of runs that were cut short, by what cut them short (`EARLY`).
+    """
 
     human: str
     automation: str
     metrics: dict[str, Estimate]
+    ended_early: dict[str, int]
 
 
 def compare_humans(
@@ -107,20 +125,28 @@ def compare_humans(
         delayed(_measure)(scenario, *task) for task in tasks
     )
     values: dict[tuple[str, str], list[tuple[float, ...]]] = {pair: [] for pair in pairs}
-    for done, ((human, automation, _), found) in enumerate(
+    ends: dict[tuple[str, str], list[str]] = {pair: [] for pair in pairs}
+    for done, ((human, automation, _), (found, end)) in enumerate(
         zip(tasks, outcomes, strict=True), start=1
     ):
         values[human, automation].append(found)
+        ends[human, automation].append(end)
         if progress is not None:
             progress(done, len(tasks))
     return [
-        Cell(*pair, dict(zip(METRICS, map(estimate, np.array(values[pair]).T), strict=True)))
+        Cell(
+            *pair,
+            dict(zip(METRICS, map(estimate, np.array(values[pair]).T), strict=True)),
+            {end: ends[pair].count(end) for end in EARLY},
+        )
         for pair in pairs
     ]
 
 
-def _measure(scenario: Scenario, human: str, automation: str, seed: int) -> tuple[float, ...]:
-    """Return the `METRICS` of one run."""
+def _measure(
+    scenario: Scenario, human: str, automation: str, seed: int
+) -> tuple[tuple[float, ...], str]:
+    """Return the `METRICS` of one run, and how it ended."""
     section = scenario.human
     person = HumanComponent(
         name=human,
@@ -143,11 +169,11 @@ def _measure(scenario: Scenario, human: str, automation: str, seed: int) -> tupl
     )
     if result.error is not None:
         raise InputError(f"human {human!r}, automation {automation!r}, seed {seed}: {result.error}")
-    found = result.summary["metrics"]
-    unknown = math.nan
-    return tuple(
-        unknown if (value := found[name]["value"]) is None else float(value) for name in METRICS
-    )
+    values = {name: found["value"] for name, found in result.summary["metrics"].items()}
+    values = {name: math.nan if value is None else value for name, value in values.items()}
+    way = values["distance walked"]
+    values["effort a metre"] = values["effort"] / way if way > 0.0 else math.nan
+    return tuple(values[name] for name in METRICS), result.summary["end"]
 
 
 def _shifted(world: World, seed: int) -> World:
@@ -183,17 +209,20 @@ def estimate(values: Array) -> Estimate:
 
 def header() -> tuple[str, ...]:
     """Return the column heads of the table."""
-    return ("human", "automation", *(f"{name}, {unit}" for name, unit in METRICS.items()), "agreed")
+    heads = (f"{name}, {unit}" for name, unit in METRICS.items())
+    return ("human", "automation", *heads, "agreed", "ended early")
 
 
 def row(cell: Cell) -> tuple[str, ...]:
-    """Return a cell as text: means with their intervals, and how many runs agreed."""
+    """Return a cell as text: means with their intervals, how many runs agreed, ended early."""
     texts = []
     for found in cell.metrics.values():
         interval = f" [{found.low:.2f}, {found.high:.2f}]" if math.isfinite(found.low) else ""
         texts.append(f"{found.mean:.2f}{interval}" if found.runs else "-")
     runs, total = cell.metrics["time to agreement"].runs, cell.metrics["effort"].runs
-    return (cell.human, cell.automation, *texts, f"{runs} of {total}")
+    cut = [f"{count} by {end}" for end, count in cell.ended_early.items() if count]
+    early = ", ".join(cut) or "none"
+    return (cell.human, cell.automation, *texts, f"{runs} of {total}", early)
 
 
 def write_table(file: Path, cells: Sequence[Cell], scenario: str, plant: str, seeds: int) -> None:
@@ -209,7 +238,7 @@ def write_table(file: Path, cells: Sequence[Cell], scenario: str, plant: str, se
     Raises
     ------
     InputError
-        If the file cannot be read or has no such marks.
+        See `marked_document`.
     """
     from rich.box import MARKDOWN
     from rich.console import Console
@@ -225,17 +254,31 @@ def write_table(file: Path, cells: Sequence[Cell], scenario: str, plant: str, se
     lines = "\n".join(line for line in text.getvalue().splitlines() if line.strip())
     caption = (
         f"Scenario `{scenario}` on the {plant} plant, {seeds} seeds; mean and 95 % bootstrap "
-        "interval. Time to agreement: over the runs that reached it."
+        f"interval. {NOTE}"
     )
+    document = marked_document(file)
+    filled = _PLACE.sub(lambda found: f"{found[1]}{caption}\n\n{lines}\n{found[2]}", document)
+    file.write_text(filled, encoding="utf-8")
+
+
+_PLACE = re.compile(rf"(<!-- {MARK} -->\n).*?(<!-- /{MARK} -->)", re.DOTALL)
+
+
+def marked_document(file: Path) -> str:
+    """Return the text of a document with a place for the table.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read or has no such marks.
+    """
     try:
         document = file.read_text(encoding="utf-8")
     except OSError as error:
         raise InputError(f"--write {file}: cannot be read ({error.strerror})") from error
-    pattern = re.compile(rf"(<!-- {MARK} -->\n).*?(<!-- /{MARK} -->)", re.DOTALL)
-    if not pattern.search(document):
+    if not _PLACE.search(document):
         raise InputError(
             f"--write {file}: no place for the table; add the lines <!-- {MARK} --> and "
             f"<!-- /{MARK} -->"
         )
-    filled = pattern.sub(lambda found: f"{found[1]}{caption}\n\n{lines}\n{found[2]}", document)
-    file.write_text(filled, encoding="utf-8")
+    return document

@@ -15,6 +15,7 @@ from cowalk.agents.imperfections.wrapper import Imperfection
 from cowalk.agents.registry import IMPERFECTIONS
 from cowalk.sim.errors import InputError
 from cowalk.sim.plant import Rates
+from cowalk.sim.plants import PLANTS
 from cowalk.sim.registry import did_you_mean
 
 from .distribution import KEY, Distribution
@@ -80,11 +81,13 @@ class Population(BaseModel):
         Raises
         ------
         InputError
-            If the count or the seed is negative.
+            If the count or the seed is negative, or the plant is not known.
         """
         if count < 0 or seed < 0:
             what = f"count = {count}" if count < 0 else f"seed = {seed}"
             raise InputError(f"{what}: must not be negative")
+        if plant not in PLANTS.names():
+            PLANTS.get(plant)  # of one's own, or the message that it is not known
         weights = np.cumsum([group.weight for group in self.groups])
         laws = [_distributions(group.human) for group in self.groups]
         wrappers: dict[str, Callable[..., Imperfection]] = {

@@ -214,6 +214,14 @@ class RunResult:
         return folder
 
 
+def how_it_ended(summary: dict[str, Any]) -> str:
+    """Return how a run ended, in words, from its summary."""
+    touched = summary.get("contact")
+    if isinstance(touched, dict):
+        return f"collision of the {touched['body']} with {touched['thing']}"
+    return str(summary.get("end"))
+
+
 def writable_folder(folder: str | Path) -> Path:
     """Create a folder and return it.
 

@@ -20,10 +20,9 @@ from cowalk.estimation.observers import OBSERVERS
 from cowalk.estimation.smoothing import SMOOTHERS
 from cowalk.sim.env import CowalkEnv
 from cowalk.sim.errors import InputError, SimulationError
-from cowalk.sim.motion import world_to_base
-from cowalk.sim.outline import Outline
 
 from .answers import AgentError, of_kind, pair
+from .bodies import collision, outlines
 from .building import build
 from .expectations import judge
 from .humans import build_human
@@ -31,7 +30,7 @@ from .loading import load
 from .metrics import metrics
 from .results import RunResult, Trace, json_ready
 from .schema import Scenario
-from .watching import Watcher
+from .watching import Watcher, close_all
 
 _VERSIONED = ("numpy", "scipy", "pybullet", "pettingzoo", "filterpy")
 
@@ -120,37 +119,18 @@ def run(
     started = time.perf_counter()
     try:
         end, error = _episode(scenario, env, human, automation, trace, progress, watchers)
+        touched = collision(env) if end == "collision" else None
     finally:
-        lost = _close(watchers)
+        lost = close_all(watchers)
         env.close()
     if lost is not None and error is None:
         end, error = "aborted", f"{scenario.name}: {lost}"
     wall_time = time.perf_counter() - started
     result = _result(scenario, trace, end, error, wall_time)
+    result.summary["contact"] = touched
     if len(trace):
-        result.outlines = _outlines(env)
+        result.outlines = outlines(env)
     return result
-
-
-def _outlines(env: CowalkEnv) -> dict[str, Outline]:
-    """Return the outlines of a plant's bodies, that of a load in base axes."""
-    outlines, state = dict(env.plant.bodies.outlines), env.plant_state
-    if state.load_pose is not None:
-        x, y = world_to_base(state.pose, state.load_pose[:2]).tolist()
-        turn = state.load_pose[2] - state.pose[2]
-        outlines["load"] = outlines["load"].moved((x, y, turn))
-    return outlines
-
-
-def _close(watchers: Sequence[Watcher]) -> str | None:
-    """Close every watcher; return what the last of those that failed says."""
-    said = None
-    for watcher in watchers:
-        try:
-            watcher.close()
-        except SimulationError as failure:
-            said = str(failure)
-    return said
 
 
 def _episode(

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 import numpy as np
 
-from cowalk.sim.errors import InputError
+from cowalk.sim.errors import InputError, SimulationError
 from cowalk.sim.motion import Array, arc_displacement, compose
 
 if TYPE_CHECKING:
@@ -140,3 +141,14 @@ def arc_points(pose: Array, twist: Array, horizon: float, count: int = 24) -> Ar
     """
     times = np.linspace(0.0, horizon, count)
     return compose(pose, arc_displacement(np.broadcast_to(twist, (count, 2)), times))
+
+
+def close_all(watchers: Sequence[Watcher]) -> str | None:
+    """Close every watcher; return what the last of those that failed says."""
+    said = None
+    for watcher in watchers:
+        try:
+            watcher.close()
+        except SimulationError as failure:
+            said = str(failure)
+    return said

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import math
 import types
 import typing
 from collections.abc import Sequence
@@ -63,11 +64,19 @@ def validate(model: type[M], data: Any, at: KeyPath = ()) -> tuple[M | None, lis
         validated = model.model_validate_json(text, strict=True)
     except ValidationError as error:
         for details in error.errors():
+            if _follows(details):
+                continue
             path = _place(details, data)
             message = _message(details, path, at, model)
             path = (*path, *_blamed(details))
             found.setdefault((*at, *path), Problem((*at, *path), message))
     return (None if found else validated), list(found.values())
+
+
+def _follows(details: ErrorDetails) -> bool:
+    """Return whether a list is called too short because entries in it are faulty."""
+    short = details["type"] == "too_short"
+    return short and len(details["input"]) >= details["ctx"]["min_length"]
 
 
 def _place(details: ErrorDetails, data: Any) -> KeyPath:
@@ -140,6 +149,8 @@ def _instead_of(kind: str, value: Any) -> str:
         try:
             number = int(value) if kind == "int_type" or value.isdecimal() else float(value)
         except ValueError:
+            return ", not text"
+        if kind in ("list_type", "tuple_type") or not math.isfinite(number):
             return ", not text"
         return f", not text; write {yaml.safe_dump(number).split()[0]} without quotes"
     if value is None:

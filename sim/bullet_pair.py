@@ -100,7 +100,9 @@ class Pair:
         self.base: Base = base(client, robot.rigid, drive, step)
         # Heights settle on the floor's contacts; planar joints would take the weight off them.
         self.load = Load(coupling, client, self.base, robot.handle, stands) if carried else None
-        self.human = Chain(client, self.body.urdf(hands_rise=stands), self.body.joints)
+        # A yielding grip joins no link: a hand of its own would fall, for ever.
+        hands_rise = stands and parameters.grip.kind == "rigid"
+        self.human = Chain(client, self.body.urdf(hands_rise), self.body.joints)
         held = self.load.slab if self.load else self.base
         reference = handles[0] if carried else robot.handle
         self.hands = Hands(parameters.grip, client, held, self.human, self.body, handles, reference)

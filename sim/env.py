@@ -10,6 +10,7 @@ import numpy as np
 from gymnasium.spaces import Box, Dict
 from pettingzoo import ParallelEnv
 
+from .contact import blocked_start
 from .errors import InputError, SimulationError
 from .eyes import Eyes
 from .motion import Array, TwistBounds
@@ -22,7 +23,6 @@ from .saved import Saved, checked
 from .seats import SEATS
 from .sensor import ForceSensor, Reading
 from .sensor_parameters import SensorParameters
-from .start import blocked_start
 from .world import Corridor, World
 
 STRAIGHT_CORRIDOR = World(path=Path(((0.0, 0.0), (20.0, 0.0))), corridor=Corridor(width=3.0))

@@ -23,11 +23,12 @@ class GripParameters:
         Rigid holds the hand's place and leaves the wrist free but for its own stiffness;
         compliant is a spring and damper in all six axes.
     stiffness, damping : (float, float, float)
-        Of a compliant grip along handle axes x, y, z: N/m and N s/m.
+        Of a compliant grip along handle axes x, y, z: N/m and N s/m. Bodies that stay upright and
+        at their height never pull along z: that one transmits nothing.
     turn_stiffness, turn_damping : (float, float, float)
-        Of wrist and grip about handle axes x, y, z: N m/rad and N m s/rad. On bodies that stay
-        upright only the last acts. A relaxed wrist has 0.5 to 3 N m/rad (inferred); 0 is a free
-        wrist, which hands over no torque.
+        Of wrist and grip about handle axes x, y, z: N m/rad and N m s/rad. Bodies that stay
+        upright turn about z alone: the first two transmit nothing. A relaxed wrist has 0.5 to 3
+        N m/rad (inferred); 0 is a free wrist, which hands over no torque.
     slip_force : float, optional
         Force beyond which a compliant grip slides along, N; None never does.
     slip_length : float

@@ -14,6 +14,7 @@ from .anthropometry import (
     SHOULDER_HEIGHT,
     WINTER,
     BodyParameters,
+    girth,
 )
 from .arm import Arm
 from .gait import step_frequency
@@ -92,17 +93,21 @@ def figure_urdf(human: HumanBody) -> str:
 def _trunk(body: BodyParameters) -> list[str]:
     """Return trunk and head; sizes are inferred, to look like somebody of 1.75 m."""
     k = body.height / 1.75
+    wide = k * girth(body)
 
     def at(x: float, y: float, z: float) -> Vector:
         return k * x, k * y, k * z
 
+    def wider(x: float, y: float, z: float) -> Vector:
+        return wide * x, wide * y, k * z
+
     eyes = EYE_HEIGHT * 1.75
     return [
-        capsule(at(0.0, -0.085, 1.06), at(0.0, -0.085, 1.34), k * 0.092, SHIRT),
-        capsule(at(0.0, 0.085, 1.06), at(0.0, 0.085, 1.34), k * 0.092, SHIRT),
-        capsule(at(0.012, 0.0, 1.0), at(0.012, 0.0, 1.36), k * 0.10, SHIRT),
-        capsule(at(0.0, -0.15, 1.405), at(0.0, 0.15, 1.405), k * 0.060, SHIRT),
-        capsule(at(0.0, -0.072, 0.945), at(0.0, 0.072, 0.945), k * 0.105, TROUSERS),
+        capsule(wider(0.0, -0.085, 1.06), wider(0.0, -0.085, 1.34), wide * 0.092, SHIRT),
+        capsule(wider(0.0, 0.085, 1.06), wider(0.0, 0.085, 1.34), wide * 0.092, SHIRT),
+        capsule(wider(0.012, 0.0, 1.0), wider(0.012, 0.0, 1.36), wide * 0.10, SHIRT),
+        capsule(wider(0.0, -0.15, 1.405), wider(0.0, 0.15, 1.405), wide * 0.060, SHIRT),
+        capsule(wider(0.0, -0.072, 0.945), wider(0.0, 0.072, 0.945), wide * 0.105, TROUSERS),
         capsule(at(0.0, 0.0, 1.42), at(0.01, 0.0, 1.56), k * 0.050, SKIN),
         ball(at(0.02, 0.0, 1.645), k * 0.100, SKIN),
         ball(at(0.025, 0.0, 1.605), k * 0.082, SKIN),

@@ -23,7 +23,7 @@ BASE_RADIUS = 0.28
 """Radius of the disc that bounds the mobile base that ships, m."""
 HUMAN_RADIUS = 0.22
 """Radius of the disc that stands for a human's trunk, m (half of a shoulder breadth of 0.44 m)."""
-CAMERA = (0.12, 0.0, 1.18)
+CAMERA = (0.12, 0.0, 1.17)
 """Where the mobile base that ships sees from, base axes, m (inferred)."""
 PLAIN_BODIES = Bodies(
     {"base": disc(BASE_RADIUS), "human": disc(HUMAN_RADIUS)},

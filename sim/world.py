@@ -148,7 +148,7 @@ class Doorway:
     x : float
         Where the wall stands, m, world axes.
     width : float
-        Clear width of the opening, m. Base and human beside it take 1.15 m.
+        Clear width of the opening, m. Base and human beside it take 1.16 m.
     y : float
         Centre of the opening, m, world axes.
     """

@@ -12,7 +12,7 @@ s = 0 lets go, s = 1 insists fully. Models differ in how s and p_H move.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 
 import numpy as np
 
@@ -65,6 +65,10 @@ class DemandingHuman(ABC):
     intention: IntentionSettings = field(default_factory=IntentionSettings)
 
     def __post_init__(self) -> None:
+        for item in fields(self):
+            pair = isinstance(item.default, tuple)
+            whole = not pair or np.shape(getattr(self, item.name))[:1] == (2,)
+            require(self, item.name, whole, "must be two numbers, for v and for omega")
         require_positive(self, "force_max", "gain")
 
     @abstractmethod

@@ -33,12 +33,15 @@ class Elementwise:
         those of the array ``like``.
     where : callable
         ``where(condition, a, b)``; all three are evaluated.
+    any : callable
+        Whether a condition holds, for anybody of a batch.
     exp, sin, cos, atan2, sqrt, minimum, maximum : callable
     """
 
     parts: Callable[[Array], Any]
     pair: Callable[[Array, Value, Value], Array]
     where: Callable[[Any, Any, Any], Any]
+    any: Callable[[Any], bool]
     exp: Callable[[Value], Value]
     sin: Callable[[Value], Value]
     cos: Callable[[Value], Value]
@@ -62,6 +65,7 @@ FLOATS = Elementwise(
     parts=lambda array: array.tolist(),
     pair=lambda like, first, second: np.array((first, second)),
     where=lambda condition, a, b: a if condition else b,
+    any=bool,
     exp=math.exp,
     sin=math.sin,
     cos=math.cos,
@@ -75,6 +79,7 @@ ARRAYS = Elementwise(
     parts=lambda array: [array[..., i].copy() for i in range(array.shape[-1])],
     pair=_stack,
     where=np.where,
+    any=lambda condition: bool(np.any(condition)),
     exp=np.exp,
     sin=np.sin,
     cos=np.cos,

@@ -28,7 +28,8 @@ class EscalatingHuman(DemandingHuman):
     Parameters
     ----------
     initial : (float, float)
-        Stubbornness in v and in omega at the start and when met, in [0, 1].
+        Stubbornness in v and in omega at the start and when met, in (0, 1]: what is 0 never
+        grows. Inferred.
     growth : float
         Growth a turn of unresolved disagreement, 0.38 from Shergill et al. 2003.
     turn : float
@@ -58,6 +59,8 @@ class EscalatingHuman(DemandingHuman):
     def __post_init__(self) -> None:
         super().__post_init__()
         require_share(self, "initial")
+        grows = min(map(np.min, self.initial)) > 0.0
+        require(self, "initial", grows, "must be above 0, since what is 0 never grows; try 0.01")
         require_positive(self, "turn", "relaxation", "tolerance")
         for name in ("growth", "hold"):
             require(self, name, getattr(self, name) >= 0.0, "must not be negative")

@@ -71,13 +71,14 @@ class GameHuman(LinearHuman):
         )
         require(self, "observer_rate", self.observer_rate >= 0.0, "must not be negative")
         require(self, "reach", self.reach >= 0.0, "must not be negative")
+        first, second = self.error_weights
+        efforts = self.effort_weight, self.partner_effort_weight
+        self._equilibrium = nash_equilibrium((first, second), efforts, self.steering)
 
     def reset(self, rng: np.random.Generator, situation: Situation) -> None:
         """See `Human.reset`."""
         super().reset(rng, situation)
-        own, partner = nash_equilibrium(
-            self.error_weights, (self.effort_weight, self.partner_effort_weight), self.steering
-        )
+        own, partner = self._equilibrium
         self._gains: list[Gains] = [own, own]
         self._partner: list[Gains] = [partner, partner]
         self._before: list[Gains] = []

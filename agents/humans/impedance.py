@@ -12,23 +12,7 @@ from .demand import require, require_positive
 from .elementwise import Value
 from .intention import Outlook
 from .linear import LinearHuman
-
-
-def minimum_jerk(share: Value) -> tuple[Value, Value]:
-    """Return how far a minimum-jerk movement of length 1 has come, and its speed.
-
-    Parameters
-    ----------
-    share : float, or ndarray of shape (...)
-        Share s of the duration, in [0, 1].
-
-    Returns
-    -------
-    (float or ndarray, float or ndarray)
-        10 s^3 - 15 s^4 + 6 s^5 (Flash and Hogan 1985) and its derivative.
-    """
-    square, rest = share * share, 1.0 - share
-    return square * share * (10.0 - share * (15.0 - 6.0 * share)), 30.0 * square * rest * rest
+from .minimum_jerk import Movement
 
 
 @dataclass(kw_only=True)
@@ -76,7 +60,7 @@ class ImpedanceHuman(LinearHuman):
         """See `Human.reset`."""
         super().reset(rng, situation)
         self._lag: Value = 0.0
-        self._goal: Value = None
+        self._movement: Movement | None = None
         self._route: Value = 0
 
     def slope(self, i: int) -> Value:
@@ -88,7 +72,7 @@ class ImpedanceHuman(LinearHuman):
         m, pace = outlook.m, outlook.pace
         cos, sin = m.cos(outlook.heading), m.sin(outlook.heading)
         point = outlook.offset + self.lever * sin
-        intended, sideways = self._movement(outlook, point)
+        intended, sideways = self._intended(outlook, point)
         ahead = pace * cos + sideways * sin
         left = sideways * cos - pace * sin
         lag = self._lag + (ahead - self._executed[0]) * self.period
@@ -96,25 +80,16 @@ class ImpedanceHuman(LinearHuman):
         rate = self.stiffness / self.damping
         return ahead + rate * self._lag, (left + rate * cos * (intended - point)) / self.lever
 
-    def _movement(self, outlook: Outlook, point: Value) -> tuple[Value, Value]:
-        """Return offset and sideways speed of x_d, m and m/s; a new aim starts a new movement."""
-        m, aim = outlook.m, outlook.aim
-        if self._goal is None:
-            self._goal, self._start, self._elapsed = aim + 0.0 * point, point, 0.0 * point
-        progress, speed = minimum_jerk(self._elapsed)
-        length = self._goal - self._start
-        intended = self._start + length * progress
+    def _intended(self, outlook: Outlook, point: Value) -> tuple[Value, Value]:
+        """Return offset and sideways speed of x_d, m and m/s; on another path it starts anew."""
+        m = outlook.m
+        if self._movement is None:
+            self._movement = Movement(point)
         turned = outlook.route != self._route
-        again = (abs(aim - self._goal) > _SAME_AIM) | turned
-        self._start = m.where(again, m.where(turned, point, intended), self._start)
-        intended = m.where(turned, point, intended)
-        speed = m.where(again, 0.0, length * speed / self.duration)
-        self._goal = m.where(again, aim, self._goal)
-        self._route = outlook.route
-        share = m.where(again, 0.0, self._elapsed)
-        self._elapsed = m.minimum(share + self.period / self.duration, 1.0)
-        return intended, speed
-
-
-_SAME_AIM = 0.02
-"""Aims that differ by less than this are the same movement, m."""
+        if m.any(turned):
+            self._movement.rest(m, turned, point)
+            self._route = outlook.route
+        self._movement.aim(m, outlook.aim)
+        intended, speed = self._movement.place(), self._movement.speed()
+        self._movement.advance(m, self.period / self.duration)
+        return intended, speed / self.duration

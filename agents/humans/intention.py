@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -11,7 +10,9 @@ from cowalk.sim.errors import InputError
 from cowalk.sim.motion import Array
 from cowalk.sim.path import Path
 
+from .detour import detour, rows_in_use
 from .elementwise import FLOATS, Elementwise, Value, components, elementwise
+from .minimum_jerk import Movement
 from .route import Route, Triple
 
 
@@ -36,7 +37,8 @@ class ChangeOfMind:
     Raises
     ------
     InputError
-        If both or none of time and place are given, or nothing changes.
+        If both or none of time and place are given, nothing changes, or a time or pace is
+        negative: every fault.
     """
 
     at_time: float | None = None
@@ -45,14 +47,17 @@ class ChangeOfMind:
     path: Path | None = None
 
     def __post_init__(self) -> None:
+        faults = []
         if (self.at_time is None) == (self.at_station is None):
-            raise InputError("give either at_time (s) or at_station (m)")
+            faults.append("give either at_time (s) or at_station (m)")
         if self.pace is None and self.path is None:
-            raise InputError("nothing changes: give pace (m/s), path, or both")
+            faults.append("nothing changes: give pace (m/s), path, or both")
         if self.at_time is not None and not self.at_time >= 0.0:
-            raise InputError(f"at_time = {self.at_time}: must not be negative")
+            faults.append(f"at_time = {self.at_time}: must not be negative")
         if self.pace is not None and not self.pace >= 0.0:
-            raise InputError(f"pace = {self.pace}: must not be negative; 0 is the wish to stop")
+            faults.append(f"pace = {self.pace}: must not be negative; 0 is the wish to stop")
+        if faults:
+            raise InputError("; ".join(faults))
 
 
 @dataclass(frozen=True)
@@ -69,6 +74,8 @@ class IntentionSettings:
         Distance in m ahead at which they begin to walk around what they see.
     lookahead : float
         Distance in m ahead of the base at which they aim.
+    easing : float
+        Distance in m over which their aim moves to the side and back. Inferred: a stride.
     extent : (float, float)
         How far base and human together reach to the left and to the right of the base's
         centre, m. Inferred from the plants' body sizes.
@@ -80,13 +87,14 @@ class IntentionSettings:
     Raises
     ------
     InputError
-        If a distance or the pace is negative, or the lookahead is 0.
+        If a distance or the pace is negative, or the lookahead or the easing is 0.
     """
 
     pace: float | None = None
     margin: float = 0.15
     anticipation: float = 4.0
     lookahead: float = 1.6
+    easing: float = 0.8
     extent: tuple[float, float] = (0.28, 0.87)
     path: Path | None = None
     changes: tuple[ChangeOfMind, ...] = ()
@@ -96,8 +104,9 @@ class IntentionSettings:
             value = getattr(self, name)
             if value is not None and not value >= 0.0:
                 raise InputError(f"{name} = {value}: must not be negative")
-        if not self.lookahead > 0.0:
-            raise InputError(f"lookahead = {self.lookahead} m: must be above 0")
+        for name in ("lookahead", "easing"):
+            if not getattr(self, name) > 0.0:
+                raise InputError(f"{name} = {getattr(self, name)} m: must be above 0")
         if not min(self.extent) >= 0.0:
             raise InputError(f"extent = {self.extent}: neither may be negative")
 
@@ -114,9 +123,9 @@ class Outlook(NamedTuple):
     offset, heading : float or ndarray
         Pose of the base against the path they want now, m and rad.
     aim : float or ndarray
-        Offset from that path which they aim for, m.
+        Offset from that path which they aim for in the end, m.
     ahead, left : float or ndarray
-        Where the point they aim at lies, base axes, m.
+        Where the point they aim at lies now, base axes, m.
     route : int or ndarray
         Which path they want: 0 is the first; it rises with changes of mind.
     """
@@ -136,7 +145,8 @@ class Intention:
 
     They follow the path they want, walk around the nearest obstacle they see on the side that
     asks for the smaller detour, and steer as a pure pursuit: omega = 2 v sin(alpha) / lookahead,
-    alpha the bearing of the aim.
+    alpha the bearing of the aim. The aim moves to the side, and back, with minimum jerk, so
+    that the wish never jumps but where they change their mind.
 
     Parameters
     ----------
@@ -153,12 +163,16 @@ class Intention:
         self._known = Route(situation.path)
         self._routes = [None if settings.path is None else Route(settings.path)]
         self._route: Value = 0
+        self._needs_world = not self._known.straight or settings.path is not None
         self._changes: list[tuple[ChangeOfMind, int]] = []
         for change in settings.changes:
             if change.path is not None:
                 self._routes.append(Route(change.path))
+                self._needs_world = True
             self._changes.append((change, len(self._routes) - 1))
         self._made: list[Value] = [False] * len(self._changes)
+        self._evasion = Movement(0.0)
+        self._easing_share = situation.period / settings.easing  # a walked metre's, times pace
 
     def wish(self, observation: Observation) -> Array:
         """Return the wanted twist, m/s and rad/s, shape (..., 2)."""
@@ -180,20 +194,26 @@ class Intention:
         pose = observation["pose"]
         m = elementwise(pose)
         known = station, _, _ = tuple(m.parts(pose))
-        world = tuple(m.parts(observation["pose_world"]))
+        world = tuple(m.parts(observation["pose_world"])) if self._needs_world else known
         if self._changes:
             self._change_mind(m, observation["time"], station)
-        obstacles = _rows(m, observation["obstacles"])
-        if m is FLOATS:
-            seen = self._follow(m, self._routes[self._route], known, world, obstacles)
-        else:
-            seen = self._follow(m, self._routes[0], known, world, obstacles)
-            for i, route in enumerate(self._routes[1:], start=1):
-                other = self._follow(m, route, known, world, obstacles)
-                on_it = self._route == i
-                seen = tuple(m.where(on_it, b, a) for a, b in zip(seen, other, strict=True))
-        offset, heading, aim, ahead, left = seen
-        return Outlook(m, self._pace, offset, heading, aim, ahead, left, self._route)
+        obstacles = rows_in_use(m, observation["obstacles"])
+        wanted = [self._routes[self._route]] if m is FLOATS else self._routes
+        placed = [self._place(m, route, known, world, obstacles) for route in wanted]
+        goal = self._chosen(m, [there[3] for there in placed])
+        self._evasion.aim(m, goal)
+        aim = self._evasion.place()
+        self._evasion.advance(m, self._pace * self._easing_share)
+        offset = self._chosen(m, [there[1][1] for there in placed])
+        heading = self._chosen(m, [there[1][2] for there in placed])
+        lookahead = self._settings.lookahead
+        targets = [
+            route.towards(m, relative, world, axis, lookahead, aim)
+            for route, relative, axis, _ in placed
+        ]
+        ahead = self._chosen(m, [target[0] for target in targets])
+        left = self._chosen(m, [target[1] for target in targets])
+        return Outlook(m, self._pace, offset, heading, goal, ahead, left, self._route)
 
     def _change_mind(self, m: Elementwise, time: Array, station: Value) -> None:
         (now,) = m.parts(time)
@@ -210,15 +230,22 @@ class Intention:
                 self._route = m.where(new, route, self._route)
             self._made[i] = m.where(due, True, self._made[i])
 
-    def _follow(
+    def _chosen(self, m: Elementwise, values: list[Value]) -> Value:
+        """Return, of one value for each path, that of the path that everybody wants."""
+        chosen = values[0]
+        for i, value in enumerate(values[1:], start=1):
+            chosen = m.where(self._route == i, value, chosen)
+        return chosen
+
+    def _place(
         self,
         m: Elementwise,
         route: Route | None,
         known: Triple,
         world: Triple,
         obstacles: list[Value],
-    ) -> tuple[Value, ...]:
-        """Return offset, heading, aim, ahead and left for one path."""
+    ) -> tuple[Route, Triple, tuple[Value, Value], Value]:
+        """Return a path, the pose against it, the cosine and sine of its heading, the detour."""
         relative = known
         if route is None:
             route = self._known
@@ -226,47 +253,8 @@ class Intention:
             relative = route.relative(m, world)
         _, offset, heading = relative
         axis = m.cos(heading), m.sin(heading)
-        aim = self._around(m, offset, axis, obstacles) if obstacles else 0.0
-        ahead, left = route.towards(m, relative, world, axis, self._settings.lookahead, aim)
-        return offset, heading, aim, ahead, left
-
-    def _around(
-        self, m: Elementwise, offset: Value, axis: tuple[Value, Value], obstacles: list[Value]
-    ) -> Value:
-        """Return the offset from the path that clears the nearest obstacle in the way, m."""
-        settings = self._settings
-        left, right = settings.extent
-        behind = max(left, right)
-        cos, sin = axis
-        aim, nearest = 0.0, math.inf
-        for present, x, y, radius in obstacles:
-            along = cos * x - sin * y
-            across = sin * x + cos * y + offset
-            reach = radius + settings.margin
-            pass_left, pass_right = across + (reach + right), across - (reach + left)
-            in_the_way = (
-                (present > 0.0)
-                & (along + radius > -behind)
-                & (along - radius < settings.anticipation)
-                & (pass_left > 0.0)
-                & (pass_right < 0.0)
-                & (along < nearest)
-            )
-            # Both detours are open: left is not the longer one.
-            detour = m.where(pass_left + pass_right <= 0.0, pass_left, pass_right)
-            aim = m.where(in_the_way, detour, aim)
-            nearest = m.where(in_the_way, along, nearest)
-        return aim
-
-
-def _rows(m: Elementwise, obstacles: Array) -> list[Value]:
-    """Return the rows of the obstacles' observation that are in use, 4 values each."""
-    if m is FLOATS:
-        return [row[:4] for row in obstacles.tolist() if row[0]]
-    rows = []
-    for i in range(obstacles.shape[-2]):
-        if not obstacles[..., i, 0].any():
-            break  # rows in use come first
-        # One copy of the row: its values lie far apart in a batch.
-        rows.append(m.parts(obstacles[..., i, :4].copy()))
-    return rows
+        if not obstacles:
+            return route, relative, axis, 0.0
+        wanted = self._settings
+        room = wanted.extent, wanted.margin, wanted.anticipation
+        return route, relative, axis, detour(m, offset, axis, obstacles, *room)

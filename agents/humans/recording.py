@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -18,6 +19,8 @@ TIME_UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 FORCE_UNITS = {"N": 1.0, "mN": 1e-3, "kN": 1e3, "lbf": 4.4482216152605, "kgf": 9.80665}
 """Known units of force, in N."""
 
+_SUFFIX = re.compile(r"[\s_\[(/]([A-Za-z]+)[\])]?$")
+"""A unit at the end of a column's name: ``fx_mn``, ``t [ms]``, ``Fx (kN)``."""
 _STRONGEST = 500.0
 """Force that nobody exerts by hand, N."""
 _STEPS = (1e-5, 0.5)
@@ -45,17 +48,25 @@ class Units:
 
     Parameters
     ----------
-    time : {"s", "ms", "us", "ns"}
-    force : {"N", "mN", "kN", "lbf", "kgf"}
+    time : {"s", "ms", "us", "ns"}, optional
+        Unless given, what the file says: a Parquet field's metadata, or the end of the
+        column's name (``t_ms``, ``t [ms]``); s where it says nothing.
+    force : {"N", "mN", "kN", "lbf", "kgf"}, optional
+        Likewise (``fx_mn``, ``Fx [mN]``); N where the file says nothing.
+
+    Raises
+    ------
+    InputError
+        If a unit is not known.
     """
 
-    time: Literal["s", "ms", "us", "ns"] = "s"
-    force: Literal["N", "mN", "kN", "lbf", "kgf"] = "N"
+    time: Literal["s", "ms", "us", "ns"] | None = None
+    force: Literal["N", "mN", "kN", "lbf", "kgf"] | None = None
 
     def __post_init__(self) -> None:
         for name, known in (("time", TIME_UNITS), ("force", FORCE_UNITS)):
             unit = getattr(self, name)
-            if unit not in known:
+            if unit is not None and unit not in known:
                 raise InputError(f"units.{name} = {unit!r}: {did_you_mean(unit, list(known))}")
 
 
@@ -68,7 +79,7 @@ def read_recording(file: str, columns: Columns, units: Units) -> tuple[Array, Ar
         ``.csv``, ``.parquet``, ``.npy`` or ``.npz``.
     columns : Columns
     units : Units
-        A Parquet file that states units in its fields' metadata must agree.
+        What the file itself says of a unit must agree.
 
     Returns
     -------
@@ -92,24 +103,22 @@ def read_recording(file: str, columns: Columns, units: Units) -> tuple[Array, Ar
     table, stated = reader(path)
     first_row = 2 if path.suffix == ".csv" else 0  # a CSV file's line, the header being line 1
     names = {"time": columns.time, "fx": columns.fx, "fy": columns.fy}
-    values = {}
+    values, used = {}, {}
     for role, name in names.items():
-        unit = units.time if role == "time" else units.force
         if name not in table:
             raise InputError(f"{_at(path)}: no column {name!r}; {did_you_mean(name, list(table))}")
-        if stated.get(name, unit) != unit:
-            raise InputError(
-                f"{_at(path)}: column {name!r} is in {stated[name]!r}, the scenario says {unit!r}"
-            )
+        if table[name] is None:
+            raise InputError(f"{_at(path)}: more than one column is called {name!r}; rename one")
+        used[role] = _unit(path, "time" if role == "time" else "force", name, units, stated)
         values[role] = _numbers(path, name, table[name], first_row)
     lengths = {names[role]: len(column) for role, column in values.items()}
     if len(set(lengths.values())) > 1:
         raise InputError(f"{_at(path)}: columns differ in length: {lengths}")
     if len(values["time"]) < 2:
         raise InputError(f"{_at(path)}: holds {len(values['time'])} rows; at least 2 are needed")
-    time = values["time"] * TIME_UNITS[units.time]
-    force = np.stack((values["fx"], values["fy"]), axis=-1) * FORCE_UNITS[units.force]
-    _check_plausible(path, names, units, time, force, first_row)
+    time = values["time"] * TIME_UNITS[used["time"]]
+    force = np.stack([values[role] * FORCE_UNITS[used[role]] for role in ("fx", "fy")], axis=-1)
+    _check_plausible(path, names, used, time, force, first_row)
     return time - time[0], force
 
 
@@ -151,6 +160,33 @@ def _at(path: Path) -> str:
     return f"file = {str(path)!r}"
 
 
+def _unit(path: Path, quantity: str, name: str, units: Units, stated: dict[str, str]) -> str:
+    """Return the unit of a column: what the scenario says, the file, or s and N."""
+    known = TIME_UNITS if quantity == "time" else FORCE_UNITS
+    wanted: str | None = getattr(units, quantity)
+    found = stated.get(name)
+    if found is None and (end := _SUFFIX.search(name)):
+        found = {unit.lower(): unit for unit in known}.get(end[1].lower())
+    if found is None:
+        return wanted or next(iter(known))
+    if wanted not in (None, found):
+        raise InputError(
+            f"{_at(path)}: column {name!r} is in {found!r}, the scenario says {wanted!r}; leave "
+            f"units.{quantity} out, or map another column"
+        )
+    if found not in known:
+        raise InputError(f"{_at(path)}: column {name!r} is in {found!r}; known: {', '.join(known)}")
+    return found
+
+
+def _columns(table: Any) -> dict[str, Any]:
+    """Return an Arrow table's columns by name; None for a name that several have."""
+    names = table.column_names
+    return {
+        name: None if names.count(name) > 1 else table.column(i) for i, name in enumerate(names)
+    }
+
+
 def _read_csv(path: Path) -> tuple[dict[str, Any], dict[str, str]]:
     from pyarrow import ArrowInvalid, csv
 
@@ -158,7 +194,7 @@ def _read_csv(path: Path) -> tuple[dict[str, Any], dict[str, str]]:
         table = csv.read_csv(path)
     except ArrowInvalid as error:
         raise InputError(f"{_at(path)}: cannot be read as CSV: {_first_line(error)}") from error
-    return {name: table[name] for name in table.column_names}, {}
+    return _columns(table), {}
 
 
 def _read_parquet(path: Path) -> tuple[dict[str, Any], dict[str, str]]:
@@ -173,7 +209,7 @@ def _read_parquet(path: Path) -> tuple[dict[str, Any], dict[str, str]]:
         for field in table.schema
         if field.metadata and b"unit" in field.metadata
     }
-    return {name: table[name] for name in table.column_names}, units
+    return _columns(table), units
 
 
 def _read_numpy(path: Path) -> tuple[dict[str, Any], dict[str, str]]:
@@ -223,26 +259,27 @@ def _numbers(path: Path, name: str, column: Any, first_row: int) -> Array:
 
 
 def _check_plausible(
-    path: Path, names: dict[str, str], units: Units, time: Array, force: Array, first_row: int
+    path: Path, names: dict[str, str], units: dict[str, str], time: Array, force: Array, first: int
 ) -> None:
     steps = np.diff(time)
     falling = np.flatnonzero(steps <= 0.0)
     if len(falling):
         row = falling[0] + 1
         raise InputError(
-            f"{_at(path)}: column {names['time']!r} does not rise in row {row + first_row}: "
+            f"{_at(path)}: column {names['time']!r} does not rise in row {row + first}: "
             f"{time[row]:g} s after {time[row - 1]:g} s"
         )
     step = np.median(steps)
     if not _STEPS[0] <= step <= _STEPS[1]:
         raise InputError(
-            f"{_at(path)}: rows are {step:g} s apart with units.time = {units.time!r}; is the "
+            f"{_at(path)}: rows are {step:g} s apart with units.time = {units['time']!r}; is the "
             f"column {names['time']!r} in another unit?"
         )
     row, dimension = np.unravel_index(np.argmax(np.abs(force)), force.shape)
+    role = "fx" if dimension == 0 else "fy"
     if abs(force[row, dimension]) > _STRONGEST:
         raise InputError(
-            f"{_at(path)}: column {names['fx' if dimension == 0 else 'fy']!r} reads "
-            f"{force[row, dimension]:g} N in row {row + first_row} with units.force = "
-            f"{units.force!r}, more than anybody pushes; is it in another unit?"
+            f"{_at(path)}: column {names[role]!r} reads {force[row, dimension]:g} N in row "
+            f"{row + first} with units.force = {units[role]!r}, more than anybody "
+            "pushes; is it in another unit?"
         )

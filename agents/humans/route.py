@@ -18,11 +18,16 @@ class Route:
     Parameters
     ----------
     path : Path
+
+    Attributes
+    ----------
+    straight : bool
+        Whether the path has a single segment, along which no pose in the world is asked for.
     """
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        self._straight = len(path.points) == 2
+        self.straight = len(path.points) == 2
 
     def relative(self, m: Elementwise, pose_world: Triple) -> Triple:
         """Return `Path.relative_pose`."""
@@ -65,7 +70,7 @@ class Route:
         """
         station, offset, _ = relative
         cos, sin = axis
-        if self._straight:
+        if self.straight:
             dx, dy = lookahead, aim - offset
         else:
             x, y, theta = pose_world

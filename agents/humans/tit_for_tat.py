@@ -20,7 +20,9 @@ class TitForTatHuman(DemandingHuman):
     If the automation takes a share c of the disagreement away, the human insists on a share c
     less of what is left; if it moves off again, on as much more:
 
-        s_k = s_{k-1} (1 - c_k),  1 - c_k = |p_H - p_k| / |p_H - p_{k-1}|
+        s_k = s_{k-1} (1 - c_k),  1 - c_k = |p_H - p_k| / |p_H - p_{k-1}|,
+
+    capped at 1 where it becomes a force, so that a withdrawal taken back leaves no trace.
 
     The relative tit-for-tat of Faratin, Sierra and Jennings (1998), after Axelrod (1984), and
     the paper's own automation seen from the other side. A wish that moves is no concession:
@@ -71,5 +73,6 @@ class TitForTatHuman(DemandingHuman):
         moved = (self._executed[i] - self._before[i]) / self._upper[i]
         left = m.maximum(abs(disagreement), self.tolerance)
         before = m.maximum(abs(disagreement + moved), self.tolerance)
-        self._level[i] = m.minimum(self._level[i] * left / before, 1.0)
-        return self._level[i]
+        # Kept as it is beyond 1, so that a withdrawal and its return cancel out.
+        self._level[i] = self._level[i] * left / before
+        return m.minimum(self._level[i], 1.0)

@@ -26,7 +26,8 @@ class ReactionDelay(Imperfection):
     ----------
     human : Human
     delay : float
-        Reaction time in s; 0.15 to 0.25 for a reaction to a felt motion.
+        Reaction time in s. People react to a displaced arm somewhat sooner than to a sound
+        or a touch (Chernikoff and Taylor 1952); 0.15 to 0.25 is inferred.
 
     Raises
     ------

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -22,8 +23,8 @@ class GaitRipple(Imperfection):
 
         dF = walking stiffness/2 [fore_aft sin(phi), lateral sin(phi/2)], phi = 2 pi f t + phase.
 
-    The defaults are the medians of 110 measured walking trials; their 5 and 95 % are given
-    below. They make +- 3 N, as much as the paper's pushes. It ceases with the walk:
+    The defaults are the medians of 110 measured walking trials (unpublished); their 5 and 95 %
+    are given below. They make +- 3 N, as much as the paper's pushes. It ceases with the walk:
     ``walking = min(|v|/walking_speed, 1)``. For the unicycle plant; in PyBullet the body
     makes it.
 
@@ -47,6 +48,8 @@ class GaitRipple(Imperfection):
         If a sway or the stiffness is negative, or the frequency is not in (0, 4] Hz.
     """
 
+    demonstration: ClassVar[tuple[float, float]] = (5.0, 10.0)
+
     step_frequency: float = 1.82
     lateral_sway: float = 0.060
     fore_aft_sway: float = 0.066
@@ -63,7 +66,8 @@ class GaitRipple(Imperfection):
         """See `Imperfection.unsuited`."""
         if plant == "bullet":
             return (
-                "gait-ripple is for the unicycle plant; on 'bullet' the body makes it, leave it out"
+                "gait-ripple is for the unicycle plant; on 'bullet' the body makes it: leave it "
+                'out, and draw people with plant="bullet" (humans sample --plant bullet)'
             )
         return None
 

@@ -15,13 +15,14 @@ from .wrapper import Imperfection
 class SignalDependentNoise(Imperfection):
     """Gaussian noise whose standard deviation grows with the force: sigma = share |F|.
 
-    Drawn anew each control step, for each direction by the force in that direction.
+    Drawn anew each control step, for each direction by the force in that direction. That the
+    noise of a force grows with it: Jones, Hamilton and Wolpert (2002), J. Neurophysiol. 88:1533.
 
     Parameters
     ----------
     human : Human
     share : float
-        Standard deviation as a share of the force; typically 0.02 to 0.05.
+        Standard deviation as a share of the force. Inferred: 0.02 to 0.05.
 
     Raises
     ------

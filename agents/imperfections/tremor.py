@@ -19,19 +19,20 @@ from .wrapper import Imperfection
 class Tremor(Imperfection):
     """A sinusoidal share of the force, F (1 + share sin(2 pi f t + phase)).
 
-    Physiological tremor lies at 8 to 12 Hz and is about 1 % of the force; the phase is drawn
-    for each direction. A human decides a force once a control step and the plant holds it, so
-    20 Hz control ends at the Nyquist frequency of 10 Hz: a tremor of 11 Hz would come out at
-    9 Hz, and is refused. Holding also passes only sinc(f period) of the amplitude (0.70 at
-    9 Hz, 20 Hz) and adds an image at 1/period - f. Where the tremor itself is the subject,
-    raise ``rates.control`` to 60 Hz or more, for which the upper half of the band is there and
-    0.94 of the amplitude arrives at 12 Hz.
+    Physiological tremor lies at 8 to 12 Hz (Novak and Newell 2017) and grows with the force,
+    while its frequency stays (Sutton and Sykes 1967); the phase is drawn for each direction. A
+    human decides a force once a control step and the plant holds it, so 20 Hz control ends at
+    the Nyquist frequency of 10 Hz: a tremor of 11 Hz would come out at 9 Hz, and is refused.
+    Holding also passes only sinc(f period) of the amplitude (0.70 at 9 Hz, 20 Hz) and adds an
+    image at 1/period - f. Where the tremor itself is the subject, raise ``rates.control`` to
+    60 Hz or more, for which the upper half of the band is there and 0.94 of the amplitude
+    arrives at 12 Hz.
 
     Parameters
     ----------
     human : Human
     share : float
-        Amplitude as a share of the force, about 0.01.
+        Amplitude as a share of the force. Inferred: about 0.01.
     frequency : float
         Hz, in [1, 30] and below half of the control rate. The default is what 20 Hz control
         can hold of the band of 8 to 12 Hz.

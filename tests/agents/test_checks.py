@@ -122,10 +122,54 @@ class NeedsArguments(Good):
         self.strength = strength
 
 
+class AnswersForceAlone(Good):
+    def act(self, observation):
+        return -0.5 * observation["force"].mean(axis=0)
+
+
+class AsText(Good):
+    def act(self, observation):
+        return np.array(["0.0", "1.0"])
+
+
+class AsObjects(Good):
+    def act(self, observation):
+        return np.array([0.0, None])
+
+
+class ListsInTruth(Good):
+    def truth(self):
+        return Truth([0.8, 0.0], [0.0, 0.5])
+
+
+class TextInTruth(Good):
+    def truth(self):
+        return Truth(np.array([0.8, 0.0]), "0.5")
+
+
+class ObjectsInTruth(Good):
+    def truth(self):
+        return Truth(np.array([0.8, None]), np.array([0.0, 0.5]))
+
+
+class OneShare(Good):
+    def truth(self):
+        return Truth(np.array([0.8, 0.0]), np.array([0.5]))
+
+
+PAIR = r"return np\.array\(\[a, b\]\), one number for v, one for omega"
+FORCE = r"return the hand force on the base in N, np\.array\(\[fx, fy\]\)"
 FAULTS = {
+    AnswersForceAlone: "the same however the base moves: use the observation's twist or pose",
+    AsText: "act returned an array of <U3 instead of numbers: " + FORCE,
+    AsObjects: "act returned an array of object instead of numbers: " + FORCE,
+    ListsInTruth: r"truth\(\).wish is \[0.8, 0.0\], no NumPy array: " + PAIR,
+    TextInTruth: r"truth\(\).stubbornness is '0.5', no NumPy array: " + PAIR,
+    ObjectsInTruth: r"truth\(\).wish is an array of object instead of numbers: " + PAIR,
+    OneShare: r"truth\(\).stubbornness is an array of shape \(1,\): " + PAIR,
     NoTruth: "there is no method 'truth': add truth",
-    AsList: r"act returned \[0.0, 1.0\]: return the hand force",
-    ThreeForces: r"shape \(3,\): return the hand force",
+    AsList: r"act returned \[0.0, 1.0\], no NumPy array: " + FORCE,
+    ThreeForces: r"act returned an array of shape \(3,\): " + FORCE,
     DividesByZero: "must be finite",
     Millinewtons: "more than 100 N",
     OddKey: "act fails at step 0: KeyError.*has the keys twist, force",
@@ -199,12 +243,42 @@ class Blind(Follower):
         return np.array([0.8, 0.0])
 
 
+class AsTuple(Follower):
+    def act(self, observation):
+        return 0.8, 0.0
+
+
+class TextBelief(Follower):
+    def belief(self):
+        return Belief(utility_loss="none")
+
+
+class ListBelief(Follower):
+    def belief(self):
+        return Belief(wish=[0.8, 0.0])
+
+
+class PairBelief(Follower):
+    def belief(self):
+        return Belief(interaction=np.array([1.0, 2.0]))
+
+
+class NoBelief(Follower):
+    def belief(self):
+        return None
+
+
 @pytest.mark.parametrize(
     ("faulty", "message"),
     [
         (Unbounded, "clip to situation.bounds"),
         (Certain, r"target_utility leaves \[0, 1\]"),
-        (Blind, "its twist is the same however the base moves"),
+        (Blind, "its twist is the same however the base moves and is pushed"),
+        (AsTuple, r"act returned \(0.8, 0.0\), no NumPy array: return the twist .* np.array\("),
+        (TextBelief, r"belief\(\).utility_loss is 'none': return one number, NaN for no opinion"),
+        (ListBelief, r"belief\(\).wish is \[0.8, 0.0\], no NumPy array: " + PAIR),
+        (PairBelief, r"belief\(\).interaction is array\(\[1., 2.\]\): return one number"),
+        (NoBelief, r"belief returned None: return Belief\(\), NaN where"),
     ],
 )
 def test_a_faulty_automation_is_told_the_cure(faulty, message):

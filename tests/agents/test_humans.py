@@ -115,6 +115,12 @@ def test_tit_for_tat_mirrors_each_concession_and_each_withdrawal(situation, obse
     np.testing.assert_allclose(levels, [0.8, 0.8, 0.6, 0.6, 0.3, 0.6])
 
 
+def test_a_withdrawal_taken_back_leaves_no_trace_even_beyond_full_stubbornness(situation, observe):
+    human = TitForTatHuman(initial=(0.8, 0.8))
+    levels = levels_against(human, situation, observe, [0.3, 0.5, 0.3, 0.5, 0.3])
+    np.testing.assert_allclose(levels, [0.8, 1.0, 0.8, 1.0, 0.8])
+
+
 def test_a_wish_that_moves_is_no_concession(situation, observe):
     human = TitForTatHuman(initial=(0.8, 0.8))
     human.reset(NO_RNG, situation)
@@ -233,6 +239,12 @@ def test_stubbornness_settles_against_an_automation_that_yields_to_it(name, situ
     [
         (lambda: SteadyHuman(level=(0.5, 1.5)), r"level = .*1\.5"),
         (lambda: EscalatingHuman(turn=0.0), r"turn = 0\.0"),
+        (lambda: EscalatingHuman(initial=(0.0, 0.0)), r"initial = .*what is 0 never grows"),
+        (lambda: EscalatingHuman(initial=(0.4, 0.0)), r"initial = .*must be above 0"),
+        (lambda: SteadyHuman(level=0.5), r"level = 0\.5: must be two numbers, for v and for omega"),
+        (lambda: SteadyHuman(level=(0.5,)), r"level = .*must be two numbers"),
+        (lambda: SteadyHuman(level=(np.nan, 0.5)), r"level = .*must lie in \[0, 1\]"),
+        (lambda: GameHuman(error_weights=1.0), r"error_weights = 1\.0: must be two numbers"),
         (lambda: EscalatingHuman(growth=-1.0), r"growth = -1\.0"),
         (lambda: SteadyHuman(gain=0.0), r"gain = 0\.0"),
         (lambda: SteadyHuman(force_max=(0.0, 1.0)), "force_max"),

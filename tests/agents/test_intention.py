@@ -20,12 +20,16 @@ SIDE_CORRIDOR = Path(((0.0, 0.0), (8.0, 0.0), (8.0, 20.0)))
 
 
 def walk_alone(wanted, obstacles_world=(), start=(0.0, 0.0, 0.0), steps=500, situation=CORRIDOR):
-    """Let the intention alone steer a unicycle; return its poses and twists."""
+    """Let the intention alone steer a unicycle; return its poses and twists.
+
+    ``obstacles_world`` holds (x, y, radius), or is a function of time that returns them.
+    """
+    where = obstacles_world if callable(obstacles_world) else lambda _: obstacles_world
     intention = Intention(wanted, situation)
     pose, poses, twists = np.array(start), [], []
     for k in range(steps):
         rows = np.zeros((8, 4))
-        for i, (x, y, radius) in enumerate(obstacles_world):
+        for i, (x, y, radius) in enumerate(where(k * situation.period)):
             cos, sin = np.cos(pose[2]), np.sin(pose[2])
             dx, dy = x - pose[0], y - pose[1]
             rows[i] = [1.0, cos * dx + sin * dy, cos * dy - sin * dx, radius]
@@ -58,6 +62,34 @@ def test_an_intention_alone_clears_what_it_sees_by_its_margin(y):
     gap_left = y - 0.35 - (poses[beside, 1] + left)
     gap_right = (poses[beside, 1] - right) - (y + 0.35)
     assert max(gap_left.min(), gap_right.min()) > 0.8 * settings.margin
+
+
+def largest_change(wanted, length):
+    """Bound how much the wish for omega may change in a control step, rad/s.
+
+    omega = 2 v sin(alpha)/lookahead; the aim moves by a length with minimum jerk, at most by
+    15/8 of it an easing, and the base's own motion moves it by less than three times the way.
+    """
+    way = wanted.pace * CORRIDOR.period
+    return 2.0 * wanted.pace / wanted.lookahead**2 * (15.0 / 8.0 * length / wanted.easing + 3) * way
+
+
+def test_a_slow_walk_past_an_obstacle_bends_the_wish_and_never_makes_it_jump():
+    wanted = IntentionSettings(pace=0.3)
+    _, twists = walk_alone(wanted, ((6.0, -0.75, 0.35),), steps=800)
+    detour = -0.75 + 0.35 + wanted.margin + wanted.extent[1]
+    assert twists[:, 1].max() > 0.08  # they do turn, out and back
+    assert twists[:, 1].min() < -0.08
+    assert np.abs(np.diff(twists[:, 1])).max() < largest_change(wanted, detour)
+
+
+def test_a_change_of_side_bends_the_wish_too():
+    wanted = IntentionSettings(pace=0.3)
+    poses, twists = walk_alone(wanted, lambda time: ((5.0, 1.5 - 0.2 * time, 0.3),), steps=400)
+    assert poses[:, 1].min() < -0.15  # first to the right of who comes from the left
+    assert poses[:, 1].max() > 0.09
+    from_side_to_side = 2 * (0.3 + wanted.margin) + sum(wanted.extent)
+    assert np.abs(np.diff(twists[:, 1])).max() < largest_change(wanted, from_side_to_side)
 
 
 def test_what_is_not_in_the_way_is_left_alone():
@@ -148,9 +180,11 @@ def test_a_batch_changes_its_mind_one_by_one():
         (lambda: ChangeOfMind(pace=0.3), "either at_time"),
         (lambda: ChangeOfMind(at_time=1.0, at_station=1.0, pace=0.3), "either at_time"),
         (lambda: ChangeOfMind(at_time=1.0), "nothing changes"),
+        (lambda: ChangeOfMind(pace=-1.0), r"either at_time .*; pace = -1\.0: must not be negative"),
         (lambda: ChangeOfMind(at_time=-1.0, pace=0.3), r"at_time = -1\.0"),
         (lambda: ChangeOfMind(at_time=1.0, pace=-0.3), r"pace = -0\.3"),
         (lambda: IntentionSettings(lookahead=0.0), r"lookahead = 0\.0"),
+        (lambda: IntentionSettings(easing=0.0), r"easing = 0\.0"),
         (lambda: IntentionSettings(margin=-0.1), r"margin = -0\.1"),
     ],
 )

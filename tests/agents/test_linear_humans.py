@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.linalg import solve_continuous_are
 
 from cowalk.agents.humans.crossover import CrossoverHuman
-from cowalk.agents.humans.elementwise import FLOATS
+from cowalk.agents.humans.elementwise import ARRAYS, FLOATS
 from cowalk.agents.humans.game import GameHuman
-from cowalk.agents.humans.impedance import ImpedanceHuman, minimum_jerk
+from cowalk.agents.humans.impedance import ImpedanceHuman
 from cowalk.agents.humans.intention import IntentionSettings
-from cowalk.agents.humans.lq_game import best_answer, nash_equilibrium
+from cowalk.agents.humans.lq_game import best_answer, nash_equilibrium, regulator
+from cowalk.agents.humans.minimum_jerk import Movement, minimum_jerk
 
 NO_RNG = np.random.default_rng(0)
 UPPER = np.array([1.2, 0.5])
@@ -25,6 +25,40 @@ def test_minimum_jerk_starts_and_ends_at_rest_and_peaks_at_15_eighths():
     assert speed.max() == speed[1000] == pytest.approx(15.0 / 8.0)
     assert progress[0] == speed[0] == speed[-1] == 0.0
     assert progress[-1] == 1.0
+
+
+goals = st.lists(st.floats(-2.0, 2.0), min_size=1, max_size=6)
+
+
+@settings(max_examples=40, deadline=None)
+@given(goals, st.floats(0.002, 0.05))
+def test_a_goal_that_changes_bends_a_movement_without_a_jump(goals, step):
+    movement, places, speeds = Movement(0.0), [], []
+    for goal in goals:
+        for _ in range(round(0.4 / step)):  # each is left before it is reached
+            movement.aim(FLOATS, goal)
+            places.append(movement.place())
+            speeds.append(movement.speed())
+            movement.advance(FLOATS, step)
+    bend = 1000.0 * step  # acceleration of the longest movements, each begun in motion
+    assert np.abs(np.diff(speeds)).max(initial=0.0) < bend
+    np.testing.assert_allclose(np.diff(places), step * np.array(speeds[1:]), atol=bend * step)
+    movement.advance(FLOATS, 1.0)
+    assert movement.place() == pytest.approx(goals[-1], abs=1e-3)
+    assert movement.speed() == pytest.approx(0.0, abs=1e-9)
+
+
+def test_a_movement_of_a_batch_is_that_of_each():
+    lanes = np.array([0.5, -0.3, 0.0])
+    alone, together = [Movement(0.0) for _ in lanes], Movement(0.0)
+    for k in range(40):
+        goals = np.where(k < 11, lanes, lanes[::-1])
+        together.aim(ARRAYS, goals)
+        for movement, goal in zip(alone, goals, strict=True):
+            movement.aim(FLOATS, goal)
+        np.testing.assert_allclose(together.place(), [movement.place() for movement in alone])
+        for movement, elements in ((together, ARRAYS), *((one, FLOATS) for one in alone)):
+            movement.advance(elements, 0.04)
 
 
 def test_the_hand_pulls_along_a_minimum_jerk_profile(situation, observe):
@@ -121,17 +155,10 @@ gains = st.floats(-2.0, 4.0)
 weights = st.floats(0.1, 5.0)
 
 
-def regulator(partner, errors, effort, steering):
-    """Return the same answer from the general Riccati solver."""
-    plant, push = np.array([[0.0, 1.0], [0.0, 0.0]]), np.array([[0.0], [steering]])
-    left = plant - push @ np.array([partner])
-    riccati = solve_continuous_are(left, push, np.diag(errors), np.array([[effort]]))
-    return (push.T @ riccati)[0] / effort
-
-
 def test_the_regulator_of_a_double_integrator_is_the_textbooks():
-    answer = best_answer(FLOATS, (0.0, 0.0), (1.0, 1.0), 1.0, 1.0)
-    np.testing.assert_allclose(answer, [1.0, np.sqrt(3.0)])
+    textbook = [1.0, np.sqrt(3.0)]
+    np.testing.assert_allclose(best_answer(FLOATS, (0.0, 0.0), (1.0, 1.0), 1.0, 1.0), textbook)
+    np.testing.assert_allclose(regulator((0.0, 0.0), (1.0, 1.0), 1.0, 1.0), textbook)
 
 
 @settings(max_examples=40, deadline=None)
@@ -146,8 +173,18 @@ def test_the_closed_form_solves_the_riccati_equation(l1, l2, q1, q2, r, steering
 @pytest.mark.parametrize("efforts", [(1.0, 1.0), (1.0, 3.0), (0.2, 1.0)])
 def test_in_equilibrium_each_plays_the_regulator_of_what_the_other_leaves(efforts):
     own, other = nash_equilibrium((1.5, 0.8), efforts, 2.0)
-    np.testing.assert_allclose(own, regulator(other, (1.5, 0.8), efforts[0], 2.0), rtol=1e-6)
-    np.testing.assert_allclose(other, regulator(own, (1.5, 0.8), efforts[1], 2.0), rtol=1e-6)
+    for player, partner, effort in ((own, other, efforts[0]), (other, own, efforts[1])):
+        answer = best_answer(FLOATS, partner, (1.5, 0.8), effort, 2.0)
+        np.testing.assert_allclose(player, answer, rtol=1e-6)
+
+
+def test_a_game_human_begins_in_the_equilibrium(situation, observe):
+    human = GameHuman(effort_weight=2.0, partner_effort_weight=0.5)
+    human.reset(NO_RNG, situation)
+    own, other = nash_equilibrium((1.0, 1.0), (2.0, 0.5), 2.0)
+    assert human.partner_gains() == (other, other)
+    human.act(observe())
+    assert human.slope(1) * 0.5 / 7.5 == pytest.approx(own[1], rel=1e-6)
 
 
 def test_equal_players_share_the_work_as_the_symmetric_riccati_equation_says():

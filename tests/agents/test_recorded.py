@@ -78,6 +78,51 @@ def test_a_runs_own_trace_can_be_replayed(tmp_path):
         read_recording(str(tmp_path / "trace.parquet"), columns, Units(force="mN"))
 
 
+@pytest.mark.parametrize(
+    ("header", "factors"),
+    [
+        ("t_ms,fx_mn,fy_kn", (1e-3, 1e-3, 1e3)),
+        ("t [us],Fx [mN],Fy [lbf]", (1e-6, 1e-3, 4.4482216152605)),
+        ("time (ms),force/N,side_mN", (1e-3, 1.0, 1e-3)),
+        ("t,fx,fy", (1.0, 1.0, 1.0)),
+    ],
+)
+def test_a_unit_in_a_columns_name_counts_where_the_scenario_names_none(tmp_path, header, factors):
+    steps = np.array([0.0, 1.0, 2.0]) * 0.01 / factors[0]
+    file = write_csv(tmp_path / "r.csv", steps, [1, 2, 3], [-0.1, 0.0, 0.2], header)
+    names = header.split(",")
+    columns = Columns(time=names[0], fx=names[1], fy=names[2])
+    time, force = read_recording(file, columns, Units())
+    np.testing.assert_allclose(time, [0.0, 0.01, 0.02])
+    np.testing.assert_allclose(force, np.array([[1, -0.1], [2, 0], [3, 0.2]]) * factors[1:])
+
+
+@pytest.mark.parametrize(
+    ("header", "units", "message"),
+    [
+        ("t_s,fx_mn,fy_n", Units(force="N"), r"column 'fx_mn' is in 'mN', the scenario says 'N'"),
+        ("t_ms,fx_n,fy_n", Units(time="s"), r"column 't_ms' is in 'ms', the scenario says 's'"),
+    ],
+)
+def test_a_unit_in_a_columns_name_that_the_scenario_contradicts_is_refused(
+    tmp_path, header, units, message
+):
+    file = write_csv(tmp_path / "r.csv", RISING, np.ones(10), np.ones(10), header)
+    names = header.split(",")
+    with pytest.raises(InputError, match=message) as refused:
+        read_recording(file, Columns(time=names[0], fx=names[1], fy=names[2]), units)
+    assert "\n" not in str(refused.value)
+
+
+def test_a_unit_that_nobody_knows_is_refused(tmp_path):
+    fields = [pa.field("t_s", pa.float64()), pa.field("fx_n", pa.float64())]
+    fields.append(pa.field("fy_n", pa.float64(), metadata={"unit": "stone"}))
+    columns = [pa.array(RISING), pa.array(RISING), pa.array(RISING)]
+    parquet.write_table(pa.table(columns, schema=pa.schema(fields)), tmp_path / "r.parquet")
+    with pytest.raises(InputError, match=r"column 'fy_n' is in 'stone'; known: N, mN"):
+        read_recording(str(tmp_path / "r.parquet"), Columns(), Units())
+
+
 RISING = np.arange(10) * 0.002
 
 
@@ -96,7 +141,8 @@ def faulty(**changes):
         (faulty(fx=(4, np.inf)), {}, r"column 'fx_n' has no finite number in row 6"),
         (faulty(time=(5, 0.007)), {}, r"'t_s' does not rise in row 7: 0\.007 s after 0\.008 s"),
         (faulty(fx=(2, 3000.0)), {}, r"column 'fx_n' reads 3000 N in row 4 .*another unit"),
-        (faulty(), {"units": Units(time="ms")}, r"2e-06 s apart with units\.time = 'ms'"),
+        (faulty(time=(slice(None), RISING * 1e3)), {}, r"2 s apart with units\.time = 's'"),
+        (faulty(), {"units": Units(time="ms")}, r"column 't_s' is in 's', the scenario says 'ms'"),
     ],
 )
 def test_what_is_wrong_is_said_in_one_line(tmp_path, columns, arguments, message):
@@ -119,6 +165,11 @@ def test_what_is_wrong_is_said_in_one_line(tmp_path, columns, arguments, message
         ("r.csv", b"t_s,fx_n,fy_n\n0,1,2\n", "holds 1 rows; at least 2"),
         ("r.csv", b"t_s,fx_n,fy_n\n0,1,2\n0.1,,2\n", "no finite number in row 3"),
         ("r.csv", b"", "cannot be read as CSV"),
+        (
+            "r.csv",
+            b"t_s,fx_n,fy_n,fx_n\n0,1,2,3\n0.1,1,2,3\n",
+            "more than one column is called 'fx",
+        ),
     ],
 )
 def test_files_that_cannot_be_read_are_named(tmp_path, name, content, message):

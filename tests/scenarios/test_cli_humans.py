@@ -2,6 +2,7 @@
 
 import json
 import re
+from functools import partial
 
 import numpy as np
 import pytest
@@ -9,12 +10,14 @@ from matplotlib.image import imread
 
 from cowalk.agents import IMPERFECTIONS
 from cowalk.scenarios.human_answers import answer, fixed_points, push, settled_stubbornness
-from cowalk.scenarios.human_table import compare_humans, estimate, write_table
+from cowalk.scenarios.human_table import compare_humans, estimate, row, write_table
 from cowalk.scenarios.humans import build_human
 from cowalk.scenarios.loading import load
 from cowalk.scenarios.population import load_population
 from cowalk.scenarios.schema import HumanComponent
 from cowalk.sim.errors import InputError
+
+NONE = {"collision": 0, "grip lost": 0}
 
 
 def built(name, **parameters):
@@ -31,12 +34,29 @@ def test_sample_prints_what_the_population_draws(cowalk):
     assert all(person.name in out for person in people)
 
 
+def test_people_for_a_plant_whose_body_walks_are_drawn_without_gait(cowalk):
+    for plant, there in (("unicycle", True), ("bullet", False)):
+        code, out, _ = cowalk("humans", "sample", "determined", "-n", "2", "--plant", plant)
+        assert (code, "gait-ripple" in out) == (0, there)
+
+
 def test_show_draws_a_human(cowalk, tmp_path):
     file = tmp_path / "deep" / "human.png"
     code, out, _ = cowalk("humans", "show", "steady", "--imperfection", "tremor", "--out", file)
     assert code == 0
     assert "0.50" in out  # the default level
     assert imread(file).shape == (868, 1400, 4)
+
+
+def test_show_says_where_its_picture_is_and_where_both_dimensions_settle(cowalk, folder):
+    level = "human.parameters.level=[0.2,0.6]"
+    code, out, _ = cowalk("humans", "show", "steady", "--set", level, "--out", "mine", "--json")
+    assert code == 0
+    found = json.loads(out)
+    assert found["picture"] == "mine.png"
+    assert (folder / "mine.png").is_file()
+    expected = {"v": [pytest.approx(0.2)], "omega": [pytest.approx(0.6)]}
+    assert found["fixed points"] == expected
 
 
 @pytest.mark.parametrize("name", IMPERFECTIONS.names())
@@ -53,10 +73,13 @@ def test_every_imperfection_is_seen_alone(cowalk, tmp_path, name):
     ("arguments", "message"),
     [
         (("show",), "name a human model, an --imperfection, or both"),
+        (("show", "steady", "--out", "x.pdf"), "pictures are PNG; write x.png"),
         (("show", "stedy"), "unknown human 'stedy'; did you mean 'steady'?"),
         (("show", "steady", "--imperfection", "tremro"), "did you mean 'tremor'?"),
         (("show", "steady", "--set", "plant=bullet"), "only keys of human can be set here"),
         (("show", "steady", "--set", "human.parameters.level=[2,0]"), "level = "),
+        (("sample", "uncertain", "--plant", "bulet"), "did you mean 'bullet'?"),
+        (("table", "--write", "nowhere.md"), "--write nowhere.md: cannot be read"),
         (("sample", "nobody"), "unknown population 'nobody'"),
     ],
 )
@@ -76,10 +99,24 @@ def test_check_takes_an_agent(cowalk, tmp_path, monkeypatch):
     code, out, _ = cowalk("check", "faulty_models:Faulty")
     assert code == 2
     assert out == (
-        "faulty_models:Faulty: truth returned None: return Truth(wish=..., stubbornness=...)\n"
+        "faulty_models:Faulty: truth returned None: "
+        "return Truth(wish=np.array([v, omega]), stubbornness=np.array([s_v, s_omega]))\n"
     )
     code, out, _ = cowalk("check", "cowalk.agents.humans.steady:SteadyHuman")
     assert (code, out) == (0, "cowalk.agents.humans.steady:SteadyHuman: no fault\n")
+
+
+def test_an_agent_that_cannot_be_found_is_an_error_like_any_other(cowalk, folder):
+    code, out, error = cowalk("check", "nowhere:Nobody", "my_models:Quiet")
+    assert code == 2
+    assert error == "cowalk: human 'nowhere:Nobody' cannot be imported: No module named 'nowhere'\n"
+    assert out.startswith("my_models:Quiet: ")
+
+
+def test_humans_list_is_list_humans(cowalk):
+    for arguments in ((), ("--json",)):
+        assert cowalk("humans", "list", *arguments) == cowalk("list", "humans", *arguments)
+    assert "tit-for-tat" in cowalk("humans", "list")[1]
 
 
 def test_imperfections_and_populations_are_listed(cowalk):
@@ -139,6 +176,9 @@ def test_the_table_compares_pairs_and_goes_into_a_document(tmp_path):
         force = cell.metrics["mean force"]
         assert force.low <= force.mean <= force.high
         assert cell.metrics["effort"].mean == pytest.approx(6.0 * force.mean)
+        assert cell.ended_early == NONE
+    steady = cells[0].metrics  # walks 6 s at the 0.8 m/s that both want
+    assert steady["effort a metre"].mean == pytest.approx(steady["effort"].mean / 4.8, rel=0.02)
     assert cells == compare_humans(scenario, 3, jobs=1, **pairs)
     file = tmp_path / "humans.md"
     file.write_text("# Humans\n\n<!-- humans-table -->\nold\n<!-- /humans-table -->\n\nThe end.\n")
@@ -151,6 +191,31 @@ def test_the_table_compares_pairs_and_goes_into_a_document(tmp_path):
         write_table(_without_marks(tmp_path), cells, "puddle", "unicycle", 3)
     with pytest.raises(InputError, match="at least 2 seeds"):
         compare_humans(scenario, 1)
+
+
+def test_the_table_says_which_runs_ended_early(cowalk):
+    pair = {"humans": ("tit-for-tat",), "automations": ("never-yields", "always-yields")}
+    straight, weaving = compare_humans(load("puddle", ["plant=unicycle"]), 2, jobs=1, **pair)
+    assert straight.ended_early == NONE
+    assert weaving.ended_early == NONE | {"collision": 2}
+    assert row(straight)[-1] == "none"
+    assert row(weaving)[-1] == "2 by collision"
+    # They carry on for less long, so that less effort adds up; it is not less by the metre.
+    assert weaving.metrics["effort"].mean < straight.metrics["effort"].mean
+
+
+def test_the_table_is_printed_with_its_note_and_as_json(cowalk, scenario_file, monkeypatch):
+    few = partial(compare_humans, jobs=1, humans=("steady",))
+    monkeypatch.setattr("cowalk.scenarios.human_table.compare_humans", few)
+    file = scenario_file(("duration: 3.0", "duration: 1.0"))
+    code, out, _ = cowalk("humans", "table", file, "-n", "2", "--json")
+    assert code == 0
+    (first, *_) = json.loads(out)["cells"]
+    assert first["ended_early"] == NONE
+    assert set(first["metrics"]) >= {"effort", "effort a metre"}
+    code, out, _ = cowalk("humans", "table", file, "-n", "2")
+    assert "ended early" in out
+    assert "compare that by the metre" in out
 
 
 def _without_marks(folder):

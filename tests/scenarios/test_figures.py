@@ -5,16 +5,19 @@ from __future__ import annotations
 import matplotlib
 import numpy as np
 import pytest
+from matplotlib.colors import to_hex
 
 from cowalk.agents.automations.settings import NegotiationSettings
 from cowalk.estimation.stubbornness import utility_loss
 from cowalk.scenarios.expectations import Verdict
 from cowalk.scenarios.figures import draw_paper_panels, draw_run, draw_utility_loss, run_figure
 from cowalk.scenarios.figures_paper import paper_figure, utility_loss_figure
+from cowalk.scenarios.figures_style import FAULT
 from cowalk.scenarios.figures_top_view import window_of
 from cowalk.scenarios.results import UNITS, RunResult, Trace
 from cowalk.scenarios.schema import Scenario
 from cowalk.sim.motion import arc_displacement, compose
+from cowalk.sim.outline import across, rectangle
 from cowalk.sim.path import Path
 from cowalk.sim.world import Corridor, Obstacle, World
 
@@ -358,3 +361,31 @@ def test_utility_loss_curves(tmp_path):
     assert len({one.get_linestyle() for one in axis.lines}) == 3
     draw_utility_loss(tmp_path / "loss.png")
     assert (tmp_path / "loss.png").stat().st_size > 5_000
+
+
+def test_bodies_are_drawn_by_their_outlines_and_in_red_where_they_ended():
+    outlines = {
+        "base": rectangle(-0.2, 0.8, -0.25, 0.25),
+        "human": across(0.45, 0.24),
+        "load": rectangle(-1.6, -0.4, -0.2, 0.2, underside=0.9),
+    }
+    touched = {"body": "load", "thing": "world.obstacles.0 (pillar)"}
+    what = result(
+        columns={"theta": np.pi / 2, "human_theta": np.pi / 2},
+        outlines=outlines,
+        summary={"end": "collision", "contact": touched},
+    )
+    figure = run_figure(what)
+    # Breadth along x: they walk along y.
+    sizes = {"base": (0.5, 1.0), "human": (0.45, 0.24), "load": (0.4, 1.2)}
+    drawn = {name: [] for name in sizes}
+    for collection in figure.axes[0].collections:
+        for path in collection.get_paths():
+            extent = np.ptp(path.vertices, axis=0)
+            for name, size in sizes.items():
+                if np.allclose(extent, size, atol=0.011):
+                    drawn[name].append(to_hex(collection.get_edgecolor()[0]).upper())
+    for name, colours in drawn.items():
+        assert len(colours) > 3, name
+        assert colours.count(FAULT) == 1, name
+    assert "collision of the load with world.obstacles.0 (pillar)" in figure.get_supxlabel()

@@ -206,7 +206,11 @@ def test_a_value_that_only_a_constructor_can_judge_is_found_at_its_line(scenario
             "drive.delay",
             "must be shorter than the run, duration = 0.5 s",
         ),
-        ("robot: {\n  handle: grip}", "robot.handle", "no link 'grip'; known: body, handle"),
+        (
+            "robot: {\n  handle: grip}",
+            "robot.handle",
+            "no link 'grip'; known: body, camera, handle",
+        ),
     ],
 )
 def test_what_only_the_plant_can_judge_is_found_at_its_line(scenario_file, plant, key, words):
@@ -306,6 +310,12 @@ def test_a_swapped_part_keeps_its_section_but_not_its_parameters(scenario_file):
         ("humn.parameters.gain=1", "did you mean 'human'?"),
         ("human.parameters.gian=1", "did you mean 'gain'?"),
         ("human.parameters.gain=abc", "a number is expected, not text"),
+        ("human.parameters.level=nan", "a list of 2 is expected, not text"),
+        ("human.parameters.gain=nan", "a number is expected, not text"),
+        (
+            "human.intention.changes=[{pace: -1}]",
+            "give either at_time (s) or at_station (m); pace = -1.0: must not be negative",
+        ),
         ("human.parameters.gain=true", "not true or false"),
         ("human=foo", "unknown human 'foo'; known: bounded-memory, conceding"),
         ("world.path.points.2.0=1", "world.path.points has 2 entries, 0 to 1; '2' is none"),

@@ -149,6 +149,15 @@ def test_a_population_may_write_numbers_with_exponents(example):
     assert population.groups[0].weight == 3.0
 
 
+def test_a_fault_in_the_only_group_is_the_only_fault(example):
+    text = "name: one\ngroups:\n  - weight: 0\n    human: {name: steady}\n"
+    with pytest.raises(InputError) as caught:
+        example(text)
+    assert str(caught.value).endswith(":3: groups.0.weight = 0: it must be above 0")
+    with pytest.raises(InputError, match=r"groups.*the list has 0 entries, it needs 1$"):
+        example("name: none\ngroups: []\n")
+
+
 def test_an_unknown_population_is_told_the_known_ones():
     with pytest.raises(InputError, match="did you mean 'determined'"):
         load_population("determinde")

@@ -1,6 +1,9 @@
 """The world's section of a scenario: what cannot be is named with its line."""
 
+import pytest
+
 from cowalk.scenarios.loading import faults, load, to_yaml
+from cowalk.sim.errors import InputError
 
 BROKEN = """\
 name: broken
@@ -52,3 +55,41 @@ def test_a_human_who_is_not_followed_walks_into_the_post(run_scenario):
     result = run_scenario("doorway", "automation=never-yields", "plant=unicycle")
     assert result.summary["end"] == "collision"
     assert result.trace["clearance"][-1] < 0.0
+    assert result.summary["contact"] == {"body": "human", "thing": "world.corridor.doorways.0"}
+
+
+TIGHT = """\
+name: tight
+plant: {plant}
+world:
+  path: {{points: [[0, 0], [5, 0]]}}
+  corridor: {{width: {width}}}
+  start: [0, 0, 0]
+human: steady
+automation: stubbornness
+"""
+
+
+@pytest.mark.parametrize("plant", ["bullet", "unicycle"])
+def test_a_start_that_is_too_tight_is_a_fault_of_the_file(folder, plant, cowalk):
+    file = folder / "tight.scenario.yaml"
+    file.write_text(TIGHT.format(plant=plant, width=1.6))
+    (fault,) = faults(file)
+    assert (fault.line, fault.key) == (6, "world.start")
+    assert "the human is 0.07" in fault.message
+    assert "[0.0, 0.1, 0.0] would be free" in fault.message
+    code, _, said = cowalk("run", file)
+    assert code == 2
+    assert "tight.scenario.yaml:6: world.start = [0.0, 0.0, 0.0]" in said
+    assert load(file, ["world.start=[0, 0.1, 0]"])
+    with pytest.raises(InputError, match=r"take 1\.1. m across"):
+        load(file, ["world.corridor.width=1"])
+
+
+def test_what_only_a_plant_can_judge_is_a_fault_of_the_file(folder):
+    file = folder / "tight.scenario.yaml"
+    robot = "{name: bullet, parameters: {robot: {urdf: none.urdf}}}"
+    file.write_text(TIGHT.format(plant=robot, width=3.0))
+    (fault,) = faults(file)
+    assert fault.line == 2
+    assert "robot.urdf = 'none.urdf': no such file" in fault.message

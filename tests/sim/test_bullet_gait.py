@@ -4,11 +4,14 @@ import math
 
 import numpy as np
 import pytest
+from scipy import signal
 
 from cowalk.sim.bullet import BulletPlant
 from cowalk.sim.gait import GaitParameters, step_frequency, sway_at
 from cowalk.sim.path import Path
 from cowalk.sim.plant import Rates
+from cowalk.sim.sensor import ForceSensor
+from cowalk.sim.sensor_parameters import sensor_preset
 from cowalk.sim.world import World
 
 WORLD = World(Path(((0, 0), (60, 0))))
@@ -27,7 +30,8 @@ class Walk:
         steps = math.ceil(40.0 / step_frequency(speed) * 20.0)
         states = [plant.step((speed, 0.0), (0.0, 0.0)) for _ in range(steps)]
         plant.close()
-        self.force = np.concatenate([state.force_on_base for state in states])
+        self.wrenches = [state.wrench_on_base for state in states]
+        self.force = np.concatenate(self.wrenches)[:, :2]
         self.speed = states[-1].twist[0]
         bases = np.array([state.pose for state in states])
         places = np.array([state.human_pose for state in states])[:, :2] - bases[:, :2]
@@ -38,17 +42,17 @@ class Walk:
         self.arm, self.posture = plant._pair.body.arms[0], plant._pair.body.posture
 
 
-def amplitude(signal, rate, frequencies):
+def amplitude(samples, rate, frequencies):
     """Return the amplitude (rows: frequencies) of each column, by a Hann-windowed transform."""
-    window = np.hanning(len(signal))[:, None]
-    time = np.arange(len(signal)) / rate
+    window = np.hanning(len(samples))[:, None]
+    time = np.arange(len(samples)) / rate
     waves = np.exp(-2j * np.pi * np.outer(frequencies, time))
-    return 2.0 * np.abs(waves @ ((signal - signal.mean(axis=0)) * window)) / window.sum()
+    return 2.0 * np.abs(waves @ ((samples - samples.mean(axis=0)) * window)) / window.sum()
 
 
-def peak(signal, rate, axis):
-    frequencies = np.arange(0.3, 4.0, 0.002)
-    return frequencies[amplitude(signal, rate, frequencies)[:, axis].argmax()]
+def peak(samples, rate, axis):
+    frequencies = np.arange(0.3, 4.0, 0.004)
+    return frequencies[amplitude(samples, rate, frequencies)[:, axis].argmax()]
 
 
 @pytest.fixture(scope="module", params=[0.8, 1.2])
@@ -105,9 +109,65 @@ def test_relaxed_contact_is_as_light_as_measured():
         assert np.hypot(*force.T).mean() <= 3.0
 
 
-def test_without_gait_there_is_no_ripple():
-    force = Walk(0.8).force
-    assert np.hypot(*force.T).max() < 0.05
+@pytest.fixture(scope="module")
+def gliding():
+    return Walk(0.8)
+
+
+def test_without_gait_there_is_no_ripple(gliding):
+    assert np.hypot(*gliding.force.T).max() < 0.05
+
+
+INDUSTRIAL = sensor_preset("industrial")
+
+
+def read(walked):
+    """Return the planar force behind the industrial sensor."""
+    sensor = ForceSensor(INDUSTRIAL, 240)
+    sensor.reset(np.random.default_rng(0))
+    return np.concatenate([sensor.measure(wrench).force for wrench in walked.wrenches])
+
+
+def floor(samples):
+    """Return the amplitude that the sensor's noise shows in a line of the spectrum, N.
+
+    Standard deviation of a Hann-windowed line: density times sqrt(2 B), the window's noise
+    bandwidth B being 1.5 over the duration.
+    """
+    return INDUSTRIAL.noise_density * math.sqrt(2.0 * 1.5 * 240.0 / samples)
+
+
+def test_peaks_and_band_stand_behind_the_industrial_sensor(walk):
+    """It delays the gait and lays noise under it, and changes its size by no more than 3 %."""
+    speed, measured = walk
+    steps = step_frequency(speed)
+    lines = [steps, steps / 2.0]
+    seen = read(measured)
+    assert peak(seen, 240.0, 0) == pytest.approx(steps, rel=0.02)
+    assert peak(seen, 240.0, 1) == pytest.approx(steps / 2.0, rel=0.02)
+    ripple = np.diag(amplitude(seen, 240.0, lines))
+    low, _, high = (impedance_force(measured, speed, p) for p in (5.0, 50.0, 95.0))
+    assert (low < ripple).all()
+    assert (ripple < high).all()
+    noise = floor(len(seen))
+    assert ripple.min() > 30.0 * noise, "far above the floor"
+    exact = np.diag(amplitude(measured.force, 240.0, lines))
+    # Cross-talk mixes the axes, whose lines are apart, so that only 2 % of the other's remain.
+    assert ripple == pytest.approx(exact, rel=0.03)
+    # Where there is no gait the floor is as high as the sensor says (Rayleigh: mean sqrt(pi)/2).
+    quiet = amplitude(seen - measured.force, 240.0, np.arange(10.0, 20.0, 0.11))
+    assert quiet.mean() == pytest.approx(noise * math.sqrt(math.pi) / 2.0, rel=0.25)
+
+
+def test_without_gait_the_industrial_sensor_reads_its_own_noise(gliding):
+    seen, steps = read(gliding), step_frequency(0.8)
+    assert amplitude(seen, 240.0, [steps, steps / 2.0]).max() < 0.05
+    assert np.hypot(*seen.mean(axis=0)) < 0.05, "what noise has left in the tare"
+    # Of the white noise a sample keeps what the low-pass's response to an impulse sums up to.
+    low_pass = signal.butter(2, INDUSTRIAL.low_pass, fs=240.0)
+    response = signal.lfilter(*low_pass, np.eye(1, 480)[0])
+    expected = INDUSTRIAL.noise_density * math.sqrt(120.0 * response @ response)
+    assert seen.std(axis=0) == pytest.approx((expected, expected), rel=0.05)
 
 
 def test_more_sway_more_force_and_a_softer_arm_less():

@@ -30,7 +30,8 @@ def test_a_compliant_grip_keeps_back_what_the_arm_holds(push, stiffness):
     grip = {"kind": "compliant", "stiffness": (stiffness,) * 3}
     steady = walk(200, push=push, grip=grip)[-1].force_on_base.mean(axis=0)
     share = stiffness / (stiffness + 100.0)
-    assert steady == pytest.approx(share * np.array(push), rel=0.01, abs=0.03)
+    expected = share * np.array(push)
+    assert np.linalg.norm(steady - expected) <= 0.01 * np.linalg.norm(expected)
 
 
 def test_a_stiff_wrist_hands_over_torque_while_the_arm_turns():
@@ -49,7 +50,7 @@ def test_the_sensor_reads_in_its_own_frame():
     mean = state.wrench_on_sensor.mean(axis=0)
     # 5 N to the left at 0.1 m above the sensor: its x axis points left.
     assert mean[:2] == pytest.approx((5.0, 0.0), abs=0.05)
-    assert mean[3:] == pytest.approx((0.0, 0.5, 0.0), abs=0.01)
+    assert mean[3:] == pytest.approx((0.0, 0.5, 0.0), abs=0.005)
 
 
 @pytest.mark.parametrize("coupling", ["handle", "stretcher"])

@@ -83,7 +83,7 @@ def stand(plant, yaw, push, seconds=4.0):
 def test_force_is_of_the_human_on_the_base_in_base_axes(plant, yaw, push):
     states = stand(plant, math.radians(yaw), push)
     force = np.concatenate([state.force_on_base for state in states])
-    assert force.mean(axis=0) == pytest.approx(push, abs=0.03)
+    assert np.linalg.norm(force.mean(axis=0) - push) <= 0.01 * np.linalg.norm(push)
 
 
 @pytest.mark.parametrize("yaw", [0.0, 137.0])
@@ -97,10 +97,10 @@ def test_base_gives_way_the_way_it_is_pushed(plant, yaw):
     dx, dy = (x1 - x0) / 0.95, (y1 - y0) / 0.95
     slip = (cos * dx + sin * dy, cos * dy - sin * dx)
     assert slip == pytest.approx(
-        (push[0] / drive.gain_forward, push[1] / drive.gain_sideways), rel=0.03
+        (push[0] / drive.gain_forward, push[1] / drive.gain_sideways), rel=0.01
     )
     moment = 0.15 * push[1] + 0.30 * push[0]  # the handle is 0.15 m ahead, 0.30 m to the right
-    assert states[-1].twist[1] == pytest.approx(moment / drive.gain_yaw, rel=0.03)
+    assert states[-1].twist[1] == pytest.approx(moment / drive.gain_yaw, rel=0.01)
 
 
 @pytest.mark.parametrize("yaw", [0.0, 137.0])

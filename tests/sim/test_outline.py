@@ -17,7 +17,9 @@ from cowalk.sim.footprint import corners, furniture
 from cowalk.sim.human_body import trunk_outline
 from cowalk.sim.outline import across, disc, hull, rectangle
 from cowalk.sim.path import Path
+from cowalk.sim.plants import PLANTS
 from cowalk.sim.robot import RobotParameters, robot_of
+from cowalk.sim.seats import SEATS
 from cowalk.sim.urdf_outline import robot_outline
 from cowalk.sim.world import Corridor, Furniture, Obstacle, Pedestrian, Wall, World
 
@@ -182,7 +184,7 @@ def test_a_robots_meshes_are_found_and_read(tmp_path, name):
 def test_the_robot_that_ships_is_a_disc_and_sees_from_its_camera(hand):
     robot = robot_of(RobotParameters(), hand, "handle")
     assert robot.outline == disc(0.28)
-    assert robot.camera == (0.12, 0.0, 1.18)
+    assert robot.camera == (0.12, 0.0, 1.17)
     with pytest.raises(InputError, match=r"robot\.camera: no link 'eye'"):
         robot_of(RobotParameters(camera="eye"), hand, "handle")
 
@@ -339,4 +341,24 @@ def test_a_start_in_touch_with_something_solid_is_refused(plant, world, named):
 def test_starting_in_a_puddle_is_allowed():
     env = parallel_env(World(PATH, obstacles=(Obstacle(0.0, 0.0, 0.5),)))
     assert env.reset(seed=0)[1]["human"]["clearance"] < 0.0
+    env.close()
+
+
+@pytest.mark.parametrize("plant", PLANTS.names())
+def test_every_plant_tells_what_its_bodies_occupy_and_measures_just_that(plant):
+    pillar = Obstacle(2.2, -0.9, 0.3, "pillar")
+    env = parallel_env(World(PATH, obstacles=(pillar,)), plant=plant, duration=2.0)
+    infos = env.reset(seed=0)[1]
+    bodies = env.plant.bodies
+    assert set(bodies.eyes) == set(SEATS)
+    shape = disc(pillar.radius).moved((pillar.x, pillar.y, 0.0)).polygon
+    while env.agents:
+        poses = env.plant_state.poses
+        gaps = [
+            apart(outline.at(pose), shape)
+            for outline, pose in zip(bodies.outlines.values(), poses, strict=True)
+        ]
+        gaps += [apart(arm.at(poses[1]), shape) for arm in bodies.arms]
+        assert infos["human"]["clearance"] == pytest.approx(min(gaps), abs=1e-3)
+        infos = env.step({"human": np.zeros(2), "automation": np.array([0.6, 0.4])})[-1]
     env.close()

@@ -8,9 +8,10 @@ import pytest
 from matplotlib.colors import to_rgb
 
 from cowalk.sim import topview
+from cowalk.sim.outline import Bodies, across, rectangle
 from cowalk.sim.path import Path
 from cowalk.sim.plant import PLAIN_BODIES, PlantState
-from cowalk.sim.topview import BASE, FLOOR, FORCE, HUMAN, PASSER, PUDDLE, SOLID, WALL
+from cowalk.sim.topview import BASE, FLOOR, FORCE, HUMAN, LOAD, PASSER, PUDDLE, SOLID, WALL
 from cowalk.sim.world import Corridor, Doorway, Furniture, Obstacle, Pedestrian, SideCorridor, World
 
 WORLD = World(
@@ -29,10 +30,15 @@ def draw(world, state, width, height, bodies=PLAIN_BODIES):
     return topview.draw(world, state, bodies, width, height)
 
 
+def near(picture, colour):
+    """Which pixels are of a colour."""
+    return np.abs(picture / 255.0 - to_rgb(colour)).max(axis=-1) < 0.02
+
+
 def where(picture, colour):
     """Mean (row, column) of the pixels of a colour, and how many there are."""
-    near = np.abs(picture / 255.0 - to_rgb(colour)).max(axis=-1) < 0.02
-    return np.argwhere(near).mean(axis=0) if near.any() else None, near.sum()
+    found = near(picture, colour)
+    return np.argwhere(found).mean(axis=0) if found.any() else None, found.sum()
 
 
 @pytest.mark.parametrize("size", [(640, 480), (320, 180), (301, 199)])
@@ -104,3 +110,26 @@ def test_open_ground_and_no_global_state():
     assert (
         "matplotlib.pyplot" not in sys.modules or not sys.modules["matplotlib.pyplot"].get_fignums()
     )
+
+
+def test_bodies_are_drawn_as_they_are():
+    bodies = Bodies(
+        {
+            "base": rectangle(-0.2, 1.0, -0.2, 0.2),
+            "human": across(0.45, 0.24),
+            "load": rectangle(-1.0, 0.0, -0.2, 0.2, underside=0.9),
+        },
+        PLAIN_BODIES.eyes,
+    )
+    world = World(Path(((0, 0), (10, 0))))
+    for theta in (0.0, np.pi / 2):
+        held = replace(state(theta=theta), load_pose=(1.0, -1.2, 0.0), human_pose=(2.0, 0.9, theta))
+        picture = draw(world, held, 640, 480, bodies)
+        rows, columns = np.nonzero(near(picture, BASE))
+        extent = np.array((np.ptp(columns), np.ptp(rows))) * 6.0 / 640
+        assert extent == pytest.approx((1.2, 0.4) if theta == 0.0 else (0.4, 1.2), abs=0.05)
+        rows, columns = np.nonzero(near(picture, HUMAN))
+        assert (np.ptp(rows) > np.ptp(columns)) == (theta == 0.0)
+        rows, columns = np.nonzero(near(picture, LOAD))
+        extent = np.array((np.ptp(columns), np.ptp(rows))) * 6.0 / 640
+        assert extent == pytest.approx((1.0, 0.4), abs=0.05)

@@ -1,10 +1,11 @@
-"""What is wrong with a start at which the pair cannot stand, and where it could."""
+"""Which body touches what; and for a start at which the pair cannot stand, where it could."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -17,6 +18,51 @@ Pose = tuple[float, float, float]
 STEP, STEPS = 0.05, 60
 """Of the search for a place that is free, m, and how many of them it goes."""
 _AWAY = (1e6, 1e6, 0.0)
+
+
+class Contact(NamedTuple):
+    """A body and what it touches.
+
+    Attributes
+    ----------
+    body : str
+        Name of the body.
+    thing : str
+        Key of the thing in a scenario file, and its kind.
+    depth : float
+        How far one is inside the other, m.
+    """
+
+    body: str
+    thing: str
+    depth: float
+
+
+def contact(
+    world: World,
+    bodies: Bodies,
+    poses: tuple[Pose, ...],
+    distances: Callable[[World], Distances],
+    time: float = 0.0,
+) -> Contact | None:
+    """Return the deepest contact of a body with something solid, or None if there is none.
+
+    Parameters
+    ----------
+    world, bodies, poses, distances
+        See `blocked_start`.
+    time : float
+        Since reset, s.
+    """
+    deepest: Contact | None = None
+    for thing, alone in _parts(world):
+        measure = distances(alone)
+        for number, name in enumerate(bodies.outlines):
+            placed = [pose if n == number else _AWAY for n, pose in enumerate(poses)]
+            clearance, touching = measure(time, *placed)
+            if touching and (deepest is None or -clearance > deepest.depth):
+                deepest = Contact(name, thing, -clearance)
+    return deepest
 
 
 def blocked_start(
@@ -37,16 +83,10 @@ def blocked_start(
         Returns what measures distances in a world, good until it is called again.
     """
     start = list(world.start)
-    deepest = 0.0
+    found = contact(world, bodies, poses, distances)
     said = "something solid is touched"
-    for what, alone in _parts(world):
-        measure = distances(alone)
-        for number, name in enumerate(bodies.outlines):
-            placed = [pose if n == number else _AWAY for n, pose in enumerate(poses)]
-            clearance, touching = measure(0.0, *placed)
-            if touching and clearance < deepest:
-                deepest = clearance
-                said = f"the {name} is {-clearance:.2g} m inside {what}"
+    if found is not None:
+        said = f"the {found.body} is {found.depth:.2g} m inside {found.thing}"
     return f"world.start = {start}: {said}; {_cure(world, bodies, poses, distances(world))}"
 
 

@@ -1,0 +1,24 @@
+"""What a run leaves behind about its bodies: their outlines, and what they ran into."""
+
+from __future__ import annotations
+
+from cowalk.sim.contact import contact
+from cowalk.sim.env import CowalkEnv
+from cowalk.sim.motion import world_to_base
+from cowalk.sim.outline import Outline
+
+
+def outlines(env: CowalkEnv) -> dict[str, Outline]:
+    """Return the outlines of a plant's bodies, that of a load in base axes."""
+    found, state = dict(env.plant.bodies.outlines), env.plant_state
+    if state.load_pose is not None:
+        x, y = world_to_base(state.pose, state.load_pose[:2]).tolist()
+        found["load"] = found["load"].moved((x, y, state.load_pose[2] - state.pose[2]))
+    return found
+
+
+def collision(env: CowalkEnv) -> dict[str, str] | None:
+    """Return which body of a finished run touches what, by its key, or None if none does."""
+    plant, state = env.plant, env.plant_state
+    found = contact(env.world, plant.bodies, state.poses, plant.distances, state.time)
+    return {"body": found.body, "thing": found.thing} if found else None
