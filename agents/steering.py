@@ -18,9 +18,11 @@ _TO_THE_OTHER_SIDE = np.array([1.0, -1.0])
 
 def mirrored(force: Array) -> Array:
     """Return a force, shape (..., 2), N, with its sideways part on the other side."""
-    return force * _TO_THE_OTHER_SIDE
+    return np.asarray(force * _TO_THE_OTHER_SIDE)
 
 
 def mirrored_observation(observation: Observation) -> Observation:
     """Return what is perceived with ``force`` mirrored, and all else as it is."""
-    return Observation({**observation, "force": mirrored(observation["force"])})  # type: ignore[typeddict-item]
+    seen = observation.copy()
+    seen["force"] = mirrored(seen["force"])
+    return seen
