@@ -114,7 +114,7 @@ class Floor:
 def _pixels(clip: Array, width: int, height: int) -> Array:
     """Return pixels, shape (..., 2), of points in clip space (x, y, w)."""
     half = np.array([width / 2.0, -height / 2.0])
-    return clip[..., :2] / clip[..., 2:] * half + (width / 2.0, height / 2.0)
+    return np.asarray(clip[..., :2] / clip[..., 2:] * half + (width / 2.0, height / 2.0))
 
 
 def _tiles(west: float, east: float, south: float, north: float) -> tuple[Array, Array]:

@@ -103,9 +103,9 @@ class Pair:
         # A yielding grip joins no link: a hand of its own would fall, for ever.
         hands_rise = stands and parameters.grip.kind == "rigid"
         self.human = Chain(client, self.body.urdf(hands_rise), self.body.joints)
-        held = self.load.slab if self.load else self.base
-        reference = handles[0] if carried else robot.handle
-        self.hands = Hands(parameters.grip, client, held, self.human, self.body, handles, reference)
+        thing = self.load.slab if self.load else self.base
+        origin = handles[0] if carried else robot.handle
+        self.hands = Hands(parameters.grip, client, thing, self.human, self.body, handles, origin)
         self.base_state: State = ()
         self.human_state: State = ()
         self.load_state: State = ()

@@ -100,8 +100,8 @@ def refuse_unstable(bodies: Masses, gains: Gains, step: float, held: int) -> Non
         names = ", ".join(f"{section}.{name}" for section, name in gains.changed)
         raise InputError(f"{names}: together they would let the bodies diverge; see docs/plant.md")
     rate = round(1.0 / step)
-    works = (n for n in FASTER if _stable(Linear(bodies, step / n), gains, held))
-    cure = next((f"{n * rate} works" for n in works), "the robot or its load may be too light")
+    enough = (n for n in FASTER if _stable(Linear(bodies, step / n), gains, held))
+    cure = next((f"{n * rate} works" for n in enough), "the robot or its load may be too light")
     raise InputError(
         f"rates.physics = {rate} Hz: too slow for these bodies, which would diverge; {cure}"
     )

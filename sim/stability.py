@@ -86,8 +86,8 @@ class Linear:
                 along = np.array([math.cos(angle), math.sin(angle)])
                 turn = trunk_turn.copy()
                 turn[joint : joint + 1 + number] = 1.0
-                centre = tuple(ends[number] + link.centre * along)
-                add(link.mass, link.inertia, self._arm(joint, ends, centre), turn)
+                middle = tuple(ends[number] + link.centre * along)
+                add(link.mass, link.inertia, self._arm(joint, ends, middle), turn)
                 ends.append(tuple(ends[number] + link.length * along))
             hand = self._arm(joint, ends[:2], ends[2])
             handle = self._carried(0, (place_x + ends[2][0], place_y + ends[2][1]))
