@@ -19,6 +19,7 @@ from .path import Path
 from .plant import Plant, PlantState, Rates
 from .plants import PLANTS
 from .reward import Reward
+from .saved import Saved, checked
 from .seats import SEATS
 from .sensor import ForceSensor, Reading
 from .sensor_parameters import SensorParameters
@@ -30,6 +31,9 @@ STRAIGHT_CORRIDOR = World(path=Path(((0.0, 0.0), (20.0, 0.0))), corridor=Corrido
 _ENDS = ("goal", "collision", "grip_lost")
 _SAVED = ("agents", "_step_count", "_sensor", "_generator", "_state", "_reading", "_info")
 """What of an environment changes within an episode, beside its plant."""
+
+
+CLOSED = "this environment is closed: make a new one"
 
 
 def _box(*shape: int) -> Box:
@@ -104,6 +108,14 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         if render_mode not in (None, *self.metadata["render_modes"]):
             raise InputError(f"render_mode = {render_mode!r}; known: None, human, rgb_array")
         self.render_mode = render_mode
+        self._arguments = {
+            "world": world,
+            "plant": plant,
+            "plant_parameters": dict(plant_parameters or {}),
+            "rates": rates,
+            "sensor": sensor,
+            "duration": duration,
+        }
         constructor = PLANTS.get(plant)
         arguments = dict(plant_parameters or {})
         if render_mode == "human" and "gui" in inspect.signature(constructor).parameters:
@@ -142,6 +154,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self._felt = np.ones(rates.samples)
         self._generator = np.random.default_rng()
         self._step_count = 0
+        self._started = self._closed = False
         self.applied = (0.0, 0.0), (0.0, 0.0)
         """Force (N) and twist (m/s, rad/s) of the last step, clipped to the action spaces."""
 
@@ -161,6 +174,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
     @property
     def plant_state(self) -> PlantState:
         """State of the plant after the last step or reset: truth, not for the seats."""
+        self._require("plant_state")
         return self._state
 
     def reset(
@@ -179,12 +193,17 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         ------
         InputError
             If a body starts in touch with something solid.
+        SimulationError
+            If the environment is closed.
         """
+        if self._closed:
+            raise SimulationError(CLOSED)
         if seed is not None:
             self._generator = np.random.default_rng(seed)
         plant_rng, sensor_rng = self._generator.spawn(2)
         self.agents = list(SEATS)
         self._step_count = 0
+        self._started = True
         self._sensor.reset(sensor_rng)
         self._state = self._plant.reset(self.world, plant_rng)
         self._reading = self._sensor.measure(self._state.wrench_on_base, self._state.mount)
@@ -216,10 +235,11 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         Raises
         ------
         SimulationError
-            If an action is not finite, or the plant cannot go on.
+            If an action is not finite, no episode is under way, or the plant cannot go on.
         """
         if not self.agents:
-            raise SimulationError("no episode is under way: call reset before step")
+            what = "no episode is under way: call reset before step"
+            raise SimulationError(CLOSED if self._closed else what)
         force = self._bounded("human", actions["human"])
         twist = self._bounded("automation", actions["automation"])
         self.applied = force, twist
@@ -246,31 +266,68 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
             {seat: dict(self._info) for seat in SEATS},
         )
 
-    def save(self) -> Any:
-        """Return the whole state within an episode, for `restore`: opaque, and never changed."""
+    def save(self) -> Saved:
+        """Return the whole state within an episode, for `restore`: opaque, and never changed.
+
+        Raises
+        ------
+        SimulationError
+            If there was no `reset` yet, or the environment is closed.
+        """
+        self._require("save", opened=True)
         # Copied as one, so that what its parts share stays shared.
         own = copy.deepcopy({name: vars(self)[name] for name in _SAVED})
-        return self._plant.save(), own
+        return Saved(self._arguments, self._plant.save(), own)
 
-    def restore(self, saved: Any) -> dict[str, Observation]:
-        """Go on from a saved state of this environment, bit for bit; return what is seen there."""
-        plant, own = saved
-        self._plant.restore(plant)
-        self.__dict__.update(copy.deepcopy(own))
+    def restore(self, saved: Saved) -> dict[str, Observation]:
+        """Go on from a saved state, bit for bit; return what is seen there.
+
+        It may come from another environment that was made with the same arguments, except with
+        the drive "wheels", where the engine keeps it.
+
+        Raises
+        ------
+        InputError
+            If it is the state of an environment that was made otherwise.
+        SimulationError
+            If this environment is closed.
+        """
+        if self._closed:
+            raise SimulationError(CLOSED)
+        saved = checked(saved, self._arguments)
+        self._plant.restore(saved.plant)
+        self.__dict__.update(copy.deepcopy(dict(saved.own)))
+        self._started = True
         return self._observations()
+
+    def _require(self, what: str, opened: bool = False) -> None:
+        """Refuse what needs an episode, under way or over, and perhaps an open environment."""
+        if self._closed and opened:
+            raise SimulationError(CLOSED)
+        if not self._started:
+            raise SimulationError(f"no episode has begun: call reset before {what}")
 
     @property
     def measured_force(self) -> Array:
         """Planar force that the sensor read in the last step, N, base axes, shape (samples, 2)."""
+        self._require("measured_force")
         return self._reading.force
 
     @property
     def sensor_reading(self) -> Reading:
         """All that it read, in its own axes too, with flags for what was lost or out of range."""
+        self._require("sensor_reading")
         return self._reading
 
     def render(self) -> np.ndarray | None:
-        """Return a picture, uint8, shape (480, 640, 3), or show it in mode ``"human"``."""
+        """Return a picture, uint8, shape (480, 640, 3), or show it in mode ``"human"``.
+
+        Raises
+        ------
+        SimulationError
+            If there was no `reset` yet, or the environment is closed.
+        """
+        self._require("render", opened=True)
         if self.render_mode == "rgb_array":
             return self._plant.render(640, 480)
         if self._window_needed:
@@ -281,6 +338,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
 
     def close(self) -> None:
         """Free the plant. May be called twice."""
+        self._closed, self.agents = True, []
         self._plant.close()
 
     @property
