@@ -10,12 +10,13 @@ import numpy as np
 from gymnasium.spaces import Box, Dict
 from pettingzoo import ParallelEnv
 
+from .actions import Actions
 from .contact import blocked_start
 from .errors import InputError, SimulationError
-from .eyes import Eyes
 from .motion import Array, TwistBounds
-from .observation import OBSTACLE_COLUMNS, OBSTACLE_ROWS, Observation
+from .observation import Observation
 from .path import Path
+from .perception import Perception, observation_space
 from .plant import Plant, PlantState, Rates
 from .plants import PLANTS
 from .reward import Reward
@@ -34,10 +35,6 @@ _SAVED = ("agents", "_step_count", "_sensor", "_generator", "_state", "_reading"
 
 
 CLOSED = "this environment is closed: make a new one"
-
-
-def _box(*shape: int) -> Box:
-    return Box(-np.inf, np.inf, shape, np.float64)
 
 
 class CowalkEnv(ParallelEnv[str, Observation, Array]):
@@ -124,34 +121,13 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self._window_needed = render_mode == "human" and "gui" not in arguments
         self.possible_agents = list(SEATS)
         self.agents: list[str] = []
-        limit = np.full(2, force_limit)
-        self.action_spaces = {
-            "human": Box(-limit, limit, dtype=np.float64),
-            "automation": Box(np.array(bounds.lower), np.array(bounds.upper), dtype=np.float64),
-        }
-        space = Dict(
-            {
-                "twist": _box(2),
-                "force": _box(rates.samples, 2),
-                "wrench": _box(rates.samples, 6),
-                "force_valid": _box(rates.samples),
-                "pose": _box(3),
-                "pose_world": _box(3),
-                "obstacles": _box(OBSTACLE_ROWS, OBSTACLE_COLUMNS),
-                "time": _box(1),
-            }
-        )
-        self.observation_spaces = dict.fromkeys(SEATS, space)
-        self._action_limits = {
-            seat: tuple(zip(box.low.tolist(), box.high.tolist(), strict=True))
-            for seat, box in self.action_spaces.items()
-        }
-        bodies = self._plant.bodies
+        self._actions = Actions(bounds, force_limit)
+        self.action_spaces = self._actions.spaces
+        self.observation_spaces = dict.fromkeys(SEATS, observation_space(rates.samples))
         self._distances = self._plant.distances(world)
         self._reward = Reward(pace, rates.period)
-        self._eyes = {seat: Eyes(world, seat, bodies.eyes[seat]) for seat in SEATS}
+        self._perceive = Perception(world, self._plant.bodies, rates.samples)
         self._sensor = ForceSensor(sensor, rates.sensor)
-        self._felt = np.ones(rates.samples)
         self._generator = np.random.default_rng()
         self._step_count = 0
         self._started = self._closed = False
@@ -240,8 +216,9 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         if not self.agents:
             what = "no episode is under way: call reset before step"
             raise SimulationError(CLOSED if self._closed else what)
-        force = self._bounded("human", actions["human"])
-        twist = self._bounded("automation", actions["automation"])
+        bounded, now = self._actions.bounded, self._time
+        force = bounded("human", actions["human"], now)
+        twist = bounded("automation", actions["automation"], now)
         self.applied = force, twist
         state = self._state = self._plant.step(twist, force)
         self._step_count += 1
@@ -346,42 +323,10 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         """Since reset, s."""
         return self._step_count / self.rates.control
 
-    def _bounded(self, seat: str, action: Array) -> tuple[float, float]:
-        if len(action) != 2:
-            raise SimulationError(
-                f"the {seat}'s action is {action!r}: it must be 2 numbers, without batch axes"
-            )
-        first, second = float(action[0]), float(action[1])
-        # The sum is NaN or infinite exactly if a part is.
-        if not -1e300 < first + second < 1e300:
-            what = "force" if seat == "human" else "twist"
-            raise SimulationError(
-                f"the {seat}'s {what} is [{first}, {second}] at "
-                f"t = {self._step_count * self.rates.period:g} s: every action must be finite"
-            )
-        (low_1, high_1), (low_2, high_2) = self._action_limits[seat]
-        return min(max(first, low_1), high_1), min(max(second, low_2), high_2)
-
     def _observations(self) -> dict[str, Observation]:
         state = self._state
         self._relative = self.world.path.relative(*state.pose)
-        twist, time = np.array(state.twist), np.array([self._time])
-        force = {"human": state.force_on_base, "automation": self._reading.force}
-        wrench = {"human": state.wrench_on_base, "automation": self._reading.wrench}
-        valid = {"human": self._felt, "automation": self._reading.valid}
-        return {
-            seat: Observation(
-                twist=twist.copy(),
-                force=force[seat].copy(),
-                wrench=wrench[seat].copy(),
-                force_valid=valid[seat].astype(float),
-                pose=np.array(self._relative),
-                pose_world=np.array(state.pose),
-                obstacles=self._eyes[seat].look(state.pose, state.human_pose, self._time),
-                time=time.copy(),
-            )
-            for seat in SEATS
-        }
+        return self._perceive(state, self._reading, self._relative, self._time)
 
 
 def parallel_env(world: World = STRAIGHT_CORRIDOR, **arguments: Any) -> CowalkEnv:
