@@ -6,7 +6,6 @@ import math
 import numpy as np
 import pytest
 
-from cowalk.sim import drive
 from cowalk.sim.anthropometry import HANDS, yaw_inertia
 from cowalk.sim.bullet import BulletPlant
 from cowalk.sim.bullet_coupling import COUPLINGS
@@ -150,18 +149,8 @@ def test_energy_does_not_grow_when_nobody_pushes(option):
     assert largest[-1] < 1e-3
 
 
-def test_momentum_of_a_coasting_base_changes_by_the_measured_wrench(option, monkeypatch):
-    monkeypatch.setattr(drive, "RANGES", {})  # no user can have a base that coasts
-    option["drive"] |= {
-        "slip": {
-            "gain_forward": 0.0,
-            "gain_sideways": 0.0,
-            "gain_yaw": 0.0,
-            "max_force": 0.0,
-            "max_torque": 0.0,
-        },
-        "wheels": {"max_force": 0.0, "friction": 0.0},
-    }[option["drive"]["kind"]]
+def test_momentum_of_a_coasting_base_changes_by_the_measured_wrench(option, coasting):
+    option["drive"] |= coasting[option["drive"]["kind"]]
     plant = BulletPlant(Rates(control=240), **option)
     before = plant.reset(WORLD, np.random.default_rng(0))
     dt, impulse, turn = 1.0 / 240.0, np.zeros(2), 0.0
