@@ -38,7 +38,7 @@ def measure() -> list[tuple[str, float, str]]:
     env.reset(seed=0)
     rates, plant = env.rates, env._plant
     mount = SensorMount((0.05, 0.0, -0.1), (0.0, 0.0, 0.3))
-    load = np.random.default_rng(0).normal(0.0, 5.0, (rates.samples, 6))
+    load = np.random.default_rng(0).normal(0.0, (5.0, 5.0, 5.0, 0.5, 0.5, 0.5), (rates.samples, 6))
 
     def bare() -> None:
         for _ in range(CALLS // 10 * rates.substeps):

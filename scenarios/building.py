@@ -214,7 +214,7 @@ def _constructor_problem(error: Exception, component: Component, section: str) -
     if not isinstance(error, ValueError):
         reason = f"it cannot be built: {type(error).__name__}: {error}"
         return Problem((*here, "name"), f"{section}.name = {component.name!r}: {reason}")
-    first = str(error).partition(" ")[0].rstrip(":,")
-    if first in component.parameters:
-        return Problem((*here, "parameters", first), f"{section}.parameters.{error}")
+    steps = str(error).partition(" ")[0].rstrip(":,").split(".")
+    if steps[0] in component.parameters:
+        return Problem((*here, "parameters", *steps), f"{section}.parameters.{error}")
     return Problem((*here, "parameters"), f"{section}.parameters: {error}")

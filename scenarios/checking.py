@@ -19,7 +19,7 @@ from cowalk.sim.sensor import ForceSensor
 from cowalk.sim.sensor_parameters import SensorParameters, sensor_preset
 
 from .building import attempt, check_parameters, complete
-from .documents import Document, Problem, dotted
+from .documents import Document, KeyPath, Problem, dotted
 from .humans import attempt_human
 from .overrides import component_sections
 from .results import UNITS
@@ -72,6 +72,7 @@ def check(document: Document) -> tuple[Scenario | None, list[Problem]]:
             ForceSensor(scenario.sensor, scenario.rates.sensor)
         except InputError as error:
             problems.append(Problem(("sensor",), str(error)))
+        problems += _too_late(scenario)
     return scenario, problems
 
 
@@ -170,6 +171,27 @@ def _agents(scenario: Scenario) -> list[Problem]:
         attempt(AUTOMATIONS, seat, "automation", **shared),
     )
     return [part for part in built if isinstance(part, Problem)]
+
+
+def _too_late(scenario: Scenario) -> list[Problem]:
+    """Return which delays are as long as the run, so that it would be over before they are."""
+    drive = scenario.plant.parameters.get("drive")
+    delays: list[tuple[KeyPath, Any]] = [
+        (("sensor", "latency"), scenario.sensor.latency),
+        (("plant", "parameters", "drive", "delay"), isinstance(drive, dict) and drive.get("delay")),
+    ]
+    for index, item in enumerate(scenario.human.imperfections):
+        path = ("human", "imperfections", index, "parameters", "delay")
+        delays.append((path, item.parameters.get("delay")))
+    return [
+        Problem(
+            path,
+            f"{dotted(path)} = {delay:g} s: must be shorter than the run, "
+            f"duration = {scenario.duration:g} s",
+        )
+        for path, delay in delays
+        if isinstance(delay, int | float) and delay >= scenario.duration
+    ]
 
 
 def _formulas(data: dict[str, Any], scenario: Scenario | None) -> list[Problem]:

@@ -15,7 +15,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from . import cli_humans, cli_studies
-from .cli_output import BAD_INPUT, FAILED, PASSED, complain, emit_json, emit_table, progress_bar
+from .cli_output import (
+    BAD_INPUT,
+    FAILED,
+    PASSED,
+    complain,
+    emit_json,
+    emit_table,
+    progress_bar,
+    two_digits,
+)
 
 if TYPE_CHECKING:
     from cowalk.sim.registry import Registry
@@ -106,7 +115,8 @@ def run(
     watching = watchers(video, rerun)
     folder = writable_folder(out if out is not None else Path("runs") / loaded.name)
     # What a user's class prints must not end up in the JSON.
-    with progress_bar(loaded.name) as progress, redirect_stdout(sys.stderr):
+    label = f"filming {loaded.name}" if video is not None else loaded.name
+    with progress_bar(label) as progress, redirect_stdout(sys.stderr):
         result = run_scenario(loaded, progress, watching, gui)
     result.write(folder)
     written = {"video": video, "rerun": rerun}
@@ -168,7 +178,7 @@ def _report(result: RunResult, folder: Path, files: dict[str, str]) -> None:
     print(f"ended by: {how_it_ended(summary)}")
     factor, wall = summary["real_time_factor"], summary["wall_time_s"]
     if factor is not None:
-        print(f"speed:    {factor:.0f} times real time ({wall:.2f} s)")
+        print(f"speed:    {two_digits(factor)} times real time ({wall:.2f} s)")
 
 
 @app.command(name="list", epilog="\b\nExamples:\n  cowalk list\n  cowalk list humans --json")

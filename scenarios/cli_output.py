@@ -5,12 +5,16 @@ from __future__ import annotations
 import json
 import math
 import sys
+import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
 PASSED, FAILED, BAD_INPUT = 0, 1, 2
 """Exit codes: all well, an expectation or verdict failed, bad input or an aborted run."""
+
+LINE_EVERY = 10.0
+"""Seconds between lines about progress where there is no terminal."""
 
 
 def complain(message: str) -> None:
@@ -54,11 +58,27 @@ def _text(cell: Any) -> str:
     return f"{cell:.4g}" if isinstance(cell, float) else str(cell)
 
 
+def two_digits(value: float) -> str:
+    """Return a number with two significant digits and no exponent."""
+    return f"{float(f'{value:.2g}'):g}"
+
+
 @contextmanager
 def progress_bar(what: str) -> Iterator[Callable[[int, int], None]]:
-    """Yield a function of (done, total) that moves a bar on standard error, if it is a terminal."""
+    """Yield a function of (done, total) that shows progress on standard error.
+
+    On a terminal it is a bar; elsewhere a line now and then, so that a log of a short run has none.
+    """
     if not sys.stderr.isatty():
-        yield lambda done, total: None
+        said = time.monotonic()
+
+        def say(done: int, total: int) -> None:
+            nonlocal said
+            if time.monotonic() - said > LINE_EVERY:
+                said = time.monotonic()
+                print(f"cowalk: {what}: {100 * done // total} %", file=sys.stderr, flush=True)
+
+        yield say
         return
     from rich.console import Console
     from rich.progress import Progress

@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict
 from scipy import stats
 
 from cowalk.sim.errors import InputError
-from cowalk.sim.registry import did_you_mean
+from cowalk.sim.registry import nearest
 
 KEY = "distribution"
 """What tells a distribution from a plain section."""
@@ -49,11 +49,10 @@ class Distribution(BaseModel):
                 for name in dir(stats)
                 if isinstance(getattr(stats, name), stats.rv_continuous | stats.rv_discrete)
             ]
-            near = did_you_mean(self.distribution, names).partition("Known:")[0]
+            near = nearest(self.distribution, names)
             what = "is no distribution of scipy.stats"
-            raise InputError(
-                f"distribution = {self.distribution!r} {what}; {near or 'see its list'}"
-            )
+            cure = f"did you mean {near!r}?" if near else "see its list"
+            raise InputError(f"distribution = {self.distribution!r} {what}; {cure}")
         shapes = family.shapes.split(", ") if family.shapes else []
         scale = [] if isinstance(family, stats.rv_discrete) else ["scale"]
         known = [*shapes, "loc", *scale]

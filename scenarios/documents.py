@@ -3,14 +3,31 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeVar
 
 import yaml
 
+R = TypeVar("R", bound=yaml.resolver.BaseResolver)
 Step = str | int
 KeyPath = tuple[Step, ...]
 """Where something stands in a document: keys and list indices from the top."""
+
+
+EXPONENT = re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)[eE][-+]?[0-9]+$")
+"""Numbers such as 1e5 and 1.5e3, which YAML 1.2 knows and 1.1, that of PyYAML, takes for text."""
+
+
+def knows_exponents(kind: type[R]) -> type[R]:
+    """Let a loader read what `EXPONENT` matches as numbers, or a dumper quote text like it."""
+    kind.add_implicit_resolver("tag:yaml.org,2002:float", EXPONENT, list("-+.0123456789"))
+    return kind
+
+
+@knows_exponents
+class Loader(yaml.SafeLoader):
+    """Reads scenario files, populations and the values of ``--set``."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +72,7 @@ def parse(text: str) -> Document:
     """Return the document that a YAML text holds; faults are reported in it, not raised."""
     document = Document()
     try:
-        loader = yaml.SafeLoader(text)
+        loader = Loader(text)
         node = loader.get_single_node()
         if node is not None and _locate(node, (), document, ()):
             document.data = loader.construct_document(node)

@@ -18,7 +18,7 @@ from cowalk.sim.errors import InputError
 from cowalk.sim.registry import did_you_mean
 
 from .checking import check
-from .documents import Document, KeyPath, dotted, parse
+from .documents import Document, KeyPath, dotted, knows_exponents, parse
 from .overrides import expand_names, override
 from .schema import SUFFIX, Scenario
 
@@ -161,6 +161,7 @@ def to_yaml(scenario: Scenario) -> str:
     return text
 
 
+@knows_exponents
 class _Dumper(yaml.SafeDumper):
     """Writes a list of plain values on one line, everything else on lines of its own."""
 

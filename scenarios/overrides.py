@@ -9,7 +9,7 @@ import yaml
 
 from cowalk.sim.errors import InputError
 
-from .documents import KeyPath, dotted
+from .documents import KeyPath, Loader, dotted
 
 COMPONENTS: tuple[tuple[str, ...], ...] = (
     ("plant",),
@@ -75,7 +75,7 @@ def override(data: dict[str, Any], assignment: str) -> KeyPath:
     if not equals or not all(steps):
         raise InputError(f"--set {assignment}: write KEY=VALUE, such as human.parameters.gain=1.5")
     try:
-        value = yaml.safe_load(text)
+        value = yaml.load(text, Loader)
     except yaml.YAMLError as error:
         raise InputError(f"--set {assignment}: {text!r} is not a YAML value") from error
     place: Any = data

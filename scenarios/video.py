@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from cowalk.sim import topview
-from cowalk.sim.bullet_scene import photograph
 from cowalk.sim.camera import Camera, level_camera
 from cowalk.sim.errors import InputError, SimulationError
 from cowalk.sim.motion import compose
@@ -50,6 +49,10 @@ BANDS = (
 """Prefix of the trace columns, width in m, colour and opacity of each wish, undermost first."""
 
 
+ARROW_ABOVE = 0.12
+"""How far above the handle the force is drawn, m: the hand is to be seen."""
+
+
 class Video:
     """A watcher that writes an H.264 video, in real time at the control rate.
 
@@ -80,6 +83,9 @@ class Video:
             f"human {scenario.human.name}    automation {scenario.automation.name}    "
             f"plant {scenario.plant.name}    seed {scenario.seed}",
         )
+        self._top = HEADER + (INSET[1] if isinstance(env.plant, Filmed) else 60)
+        _labels(self._frame, self._top)
+        self._frame.keep()
         rate = f"{scenario.rates.control}/{self._every}"
         raw = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{WIDTH}x{HEIGHT}", "-r", rate]
         packed = ["-c:v", "libx264", "-preset", "veryfast", "-crf", "23", "-pix_fmt", "yuv420p"]
@@ -120,15 +126,14 @@ class Video:
                 ("top", INSET, (VIEW[0], HEADER)),
             ):
                 camera = viewer.camera(kind, *size)
-                seen, actors = photograph(viewer.client, camera)
-                image = Image.fromarray(seen)
+                seen, upright = viewer.look(camera)
+                image = seen.copy()
                 for outline, pose in zip(outlines, env.plant_state.poses, strict=True):
                     draw_shadow(image, camera, outline.at(pose))
                 self._draw_wishes(image, camera, row)
-                image.paste(Image.fromarray(seen), mask=Image.fromarray(actors))
+                image.paste(seen, mask=upright)
                 _draw_force(image, camera, row, plant.handle)
                 frame.place(image, *place)
-            top = HEADER + INSET[1]
         else:
             camera = level_camera(*topview.window(env.world, env.plant_state, *VIEW), *VIEW)
             drawn = topview.draw(env.world, env.plant_state, env.plant.bodies, *VIEW, force=False)
@@ -136,8 +141,7 @@ class Video:
             self._draw_wishes(image, camera, row)
             _draw_force(image, camera, row, (0.0, 0.0, 0.0))
             frame.place(image, 0, HEADER)
-            top = HEADER + 60
-        _gauges(frame, top, row)
+        _gauges(frame, self._top, row)
         return frame.pixels()
 
     def _draw_wishes(self, image: Image.Image, camera: Camera, row: dict[str, float]) -> None:
@@ -173,30 +177,39 @@ class Video:
 def _draw_force(
     image: Image.Image, camera: Camera, row: dict[str, float], handle: tuple[float, float, float]
 ) -> None:
-    """Draw the measured force at the handle (base axes, m)."""
+    """Draw the measured force above the handle (base axes, m)."""
     pose = (row["x"], row["y"], row["theta"])
     x, y, height = handle
+    height += ARROW_ABOVE
     tip = (x + row["fx"] * METRES_PER_NEWTON, y + row["fy"] * METRES_PER_NEWTON, 0.0)
     ends = compose(pose, [(x, y, 0.0), tip])
     draw_arrow(image, *camera.project([(*end[:2], height) for end in ends]))
 
 
-def _gauges(frame: Frame, top: float, row: dict[str, float]) -> None:
+def _labels(frame: Frame, top: float) -> None:
+    """Write what stays the same from frame to frame."""
     frame.heading(top + 16, "the human's stubbornness")
     frame.key(top + 38, ((PALE, "true"), (HUMAN, "believed by the automation")))
-    for line, (name, dimension) in enumerate((("forward", "v"), ("turning", "omega"))):
+    frame.label(top + 60, "forward")
+    frame.label(top + 85, "turning")
+    frame.heading(top + 122, "utility the automation demands")
+    frame.label(top + 144, "target")
+    frame.heading(top + 182, "force on the handle")
+    frame.key(top + 236, ((FORCE, "force"), (HUMAN, "human's wish"), (AUTOMATION, "automation's")))
+
+
+def _gauges(frame: Frame, top: float, row: dict[str, float]) -> None:
+    for line, dimension in enumerate(("v", "omega")):
         frame.gauge(
             top + 60 + 25 * line,
-            name,
             row[f"est_stubbornness_{dimension}"],
             HUMAN,
             row[f"true_stubbornness_{dimension}"],
         )
-    frame.heading(top + 122, "utility the automation demands")
-    frame.gauge(top + 144, "target", row["target_utility"], AUTOMATION)
-    frame.heading(top + 182, "force on the handle")
-    frame.reading(top + 204, f"{row['fx']:+.1f} N forward   {row['fy']:+.1f} N left", "")
-    frame.key(top + 236, ((FORCE, "force"), (HUMAN, "human's wish"), (AUTOMATION, "automation's")))
+    frame.gauge(top + 144, row["target_utility"], AUTOMATION)
+    # Adding zero makes -0.0 a plain one.
+    fx, fy = (round(row[name], 1) + 0.0 for name in ("fx", "fy"))
+    frame.reading(top + 204, f"{fx:+.1f} N forward   {fy:+.1f} N left")
 
 
 def _encoder() -> str:

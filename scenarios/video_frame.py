@@ -8,7 +8,7 @@ from pathlib import Path
 import matplotlib
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageDraw, ImageFilter, ImageFont
 
 from cowalk.sim.camera import Camera
 from cowalk.sim.motion import Array
@@ -55,23 +55,23 @@ def _fill(image: Image.Image, outline: Array, colour: str, opacity: float = 1.0)
 
 
 def draw_arrow(image: Image.Image, tail: Array, tip: Array, colour: str = FORCE) -> None:
-    """Draw an outlined arrow between two pixels; nothing if it is too short to see."""
+    """Draw an outlined, see-through arrow between two pixels; nothing if it is too short to see."""
     along = tip - tail
     length = float(np.hypot(*along))
     if not length > 4.0:
         return
     along = along / length
     side = np.array([-along[1], along[0]])
-    head = min(20.0, 0.6 * length)
+    head = min(16.0, 0.6 * length)
 
     def outline(grow: float) -> Array:
-        shaft, wing, neck = 4.0 + grow, 10.0 + 1.4 * grow, length - head - grow
+        shaft, wing, neck = 2.5 + grow, 7.0 + 1.4 * grow, length - head - grow
         ahead = np.array([-grow, neck, neck, length + 2.0 * grow, neck, neck, -grow])
         beside = np.array([shaft, shaft, wing, 0.0, -wing, -shaft, -shaft])
         return np.asarray(tail + ahead[:, None] * along + beside[:, None] * side)
 
-    _fill(image, outline(2.0), AGREED)
-    _fill(image, outline(0.0), colour)
+    _fill(image, outline(1.5), AGREED, 0.6)
+    _fill(image, outline(0.0), colour, 0.9)
 
 
 def draw_band(
@@ -100,11 +100,18 @@ def draw_band(
 
 def draw_shadow(image: Image.Image, camera: Camera, outline: Array) -> None:
     """Darken the floor under a body: its outline, shape (n, 2), m, world axes."""
-    corners = np.concatenate((outline, np.zeros((len(outline), 1))), axis=-1)
-    middle = (corners.min(axis=0) + corners.max(axis=0)) / 2.0
-    for share in np.linspace(1.3, 0.7, 7):
-        floor = middle + share * (corners - middle)
-        _fill(image, camera.project(floor), "#101418", 0.055)
+    corners = camera.project(np.concatenate((outline, np.zeros((len(outline), 1))), axis=-1))
+    if not np.isfinite(corners).all():
+        return
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    soft = 0.12 * float((high - low).min())
+    left, top = (np.floor(low) - 3.0 * soft).astype(int)
+    right, bottom = (np.ceil(high) + 3.0 * soft).astype(int)
+    if right <= 0 or bottom <= 0 or left >= image.width or top >= image.height:
+        return
+    mask = Image.new("L", (int(right - left), int(bottom - top)))
+    ImageDraw.Draw(mask).polygon((corners - (left, top)).ravel().tolist(), fill=90)
+    image.paste("#101418", (int(left), int(top)), mask.filter(ImageFilter.GaussianBlur(soft)))
 
 
 class Frame:
@@ -122,7 +129,11 @@ class Frame:
         draw.text((18, 10), title, AGREED, _face(21, bold=True))
         draw.text((18, 38), details, MUTED, _face(13))
         self._image = self._blank
-        self._draw = draw
+        self._draw = draw  # labels come before `keep`, values after `clear`
+
+    def keep(self) -> None:
+        """Let every new frame begin with what was drawn so far: lettering is slow."""
+        self._blank = self._image.copy()
 
     def clear(self) -> None:
         """Start a new frame."""
@@ -150,12 +161,13 @@ class Frame:
             self._draw.text((left + 18, top), text, AGREED, _face(12))
             left += 18 + self._draw.textlength(text, _face(12)) + 14
 
-    def gauge(
-        self, top: float, name: str, value: float, colour: str, truth: float = math.nan
-    ) -> None:
+    def label(self, top: float, name: str) -> None:
+        """Write what a gauge shows."""
+        self._draw.text((VIEW[0] + 18, top + 9), name, AGREED, _face(13), anchor="lm")
+
+    def gauge(self, top: float, value: float, colour: str, truth: float = math.nan) -> None:
         """Show a value in [0, 1] as a bar, and the truth as a pale one around it."""
         left, right = VIEW[0] + 86, WIDTH - 62
-        self._draw.text((VIEW[0] + 18, top + 9), name, AGREED, _face(13), anchor="lm")
         self._draw.rectangle((left, top, right, top + 18), "#F4F4F4")
         for share, inset, paint in ((truth, 0, PALE), (value, 4, colour)):
             if math.isfinite(share):
@@ -164,10 +176,9 @@ class Frame:
         said = f"{value:.2f}" if math.isfinite(value) else "-"
         self._draw.text((WIDTH - 18, top + 9), said, AGREED, _face(13), anchor="rm")
 
-    def reading(self, top: float, text: str, value: str) -> None:
-        """Write a line with a value at its end."""
+    def reading(self, top: float, text: str) -> None:
+        """Write a line."""
         self._draw.text((VIEW[0] + 18, top + 9), text, AGREED, _face(13), anchor="lm")
-        self._draw.text((WIDTH - 18, top + 9), value, AGREED, _face(13), anchor="rm")
 
     def pixels(self) -> NDArray[np.uint8]:
         """Return the frame, uint8, shape (HEIGHT, WIDTH, 3)."""

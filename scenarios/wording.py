@@ -68,6 +68,7 @@ def validate(model: type[M], data: Any, at: KeyPath = ()) -> tuple[M | None, lis
                 continue
             path = _place(details, data)
             message = _message(details, path, at, model)
+            path = (*path, *_blamed(details))
             found.setdefault((*at, *path), Problem((*at, *path), message))
     return (None if found else validated), list(found.values())
 
@@ -102,8 +103,21 @@ def _message(details: ErrorDetails, path: KeyPath, at: KeyPath, model: type[Base
         return f"{key}: unknown key; {hint}"
     if kind == "value_error":
         reason = str(details["ctx"]["error"])
+        if _blamed(details):
+            return f"{key}.{reason}" if key else reason
         return reason if key and reason.startswith(key) else f"{key}: {reason}"
-    return f"{key}{shown(value)}: {_cure(details)}"
+    cure = _cure(details)
+    if kind == "tuple_type" and (length := _length(model, path)):
+        cure = cure.replace("a list", f"a list of {length}", 1)
+    return f"{key}{shown(value)}: {cure}"
+
+
+def _blamed(details: ErrorDetails) -> KeyPath:
+    """Return the key within a section that the section's own check begins its message with."""
+    if details["type"] != "value_error" or not isinstance(details["input"], dict):
+        return ()
+    first = str(details["ctx"]["error"]).partition(" ")[0].rstrip(":,")
+    return (first,) if first in details["input"] else ()
 
 
 def shown(value: Any) -> str:
@@ -118,7 +132,9 @@ def _cure(details: ErrorDetails) -> str:
         return f"{_NOUNS[kind]} is expected{_instead_of(kind, value)}"
     if kind in _LIMITS:
         word, name = _LIMITS[kind]
-        return f"it must be {word} {context[name]}"
+        return f"it must be {word} {context[name]:g}"
+    if kind == "string_pattern_mismatch":
+        return "a run's folder is named so: it must not be empty, begin with a dot or hold a slash"
     if kind == "literal_error":
         return f"it must be {context['expected']}"
     if kind == "too_long":
@@ -136,7 +152,6 @@ def _instead_of(kind: str, value: Any) -> str:
             return ", not text"
         if kind in ("list_type", "tuple_type") or not math.isfinite(number):
             return ", not text"
-        # YAML takes 1e-3 for text, so the number is shown as YAML writes it.
         return f", not text; write {yaml.safe_dump(number).split()[0]} without quotes"
     if value is None:
         return ", nothing is given"
@@ -148,6 +163,31 @@ def _instead_of(kind: str, value: Any) -> str:
     return ""
 
 
+def _length(hint: Any, path: Sequence[Step]) -> int | None:
+    """Return how many entries the tuple at a path of an annotation has, if that is fixed."""
+    if get_origin(hint) is typing.Annotated:
+        return _length(get_args(hint)[0], path)
+    if get_origin(hint) in (typing.Union, types.UnionType):
+        return next((n for arm in get_args(hint) if (n := _length(arm, path))), None)
+    if not path:
+        fixed = get_origin(hint) is tuple and Ellipsis not in get_args(hint)
+        return len(get_args(hint)) if fixed else None
+    if isinstance(path[0], int):
+        return _length(get_args(hint)[0], path[1:]) if get_args(hint) else None
+    inside = _annotations(hint).get(path[0])
+    return _length(inside, path[1:])
+
+
+def _annotations(hint: Any) -> dict[str, Any]:
+    """Return the annotations of a section's keys; none if it is no section."""
+    if isinstance(hint, type) and issubclass(hint, BaseModel):
+        return {item.alias or name: item.annotation for name, item in hint.model_fields.items()}
+    if isinstance(hint, type) and dataclasses.is_dataclass(hint):
+        hints = typing.get_type_hints(hint)
+        return {item.name: hints[item.name] for item in dataclasses.fields(hint) if item.init}
+    return {}
+
+
 def known_keys(hint: Any, path: Sequence[Step]) -> list[str]:
     """Return the keys that the section at a path of an annotation accepts; none if any are."""
     if get_origin(hint) is typing.Annotated:
@@ -155,18 +195,12 @@ def known_keys(hint: Any, path: Sequence[Step]) -> list[str]:
     if get_origin(hint) in (typing.Union, types.UnionType):
         arms = (known_keys(arm, path) for arm in get_args(hint))
         return next((keys for keys in arms if keys), [])
-    if isinstance(hint, type) and issubclass(hint, BaseModel):
-        fields = {item.alias or name: item.annotation for name, item in hint.model_fields.items()}
-    elif isinstance(hint, type) and dataclasses.is_dataclass(hint):
-        hints = typing.get_type_hints(hint)
-        fields = {item.name: hints[item.name] for item in dataclasses.fields(hint) if item.init}
-    elif get_args(hint) and path and isinstance(path[0], int):
+    if get_args(hint) and path and isinstance(path[0], int):
         arms_of_list = get_args(hint)
         return known_keys(arms_of_list[min(path[0], len(arms_of_list) - 1)], path[1:]) or (
             known_keys(arms_of_list[0], path[1:])
         )
-    else:
-        return []
+    fields = _annotations(hint)
     if not path:
         return list(fields)
     return known_keys(fields.get(str(path[0])), path[1:])

@@ -84,6 +84,9 @@ class BulletPlant:
         gait = parameters("gait", GaitParameters, gait)
         self._grip = parameters("grip", GripParameters, grip)
         self._mount = parameters("mount", SensorMount, mount)
+        # Whole numbers of held steps in a control step: a new intent acts at once.
+        most = 1 if self._grip.kind == "compliant" else MAX_HELD
+        self._held = max(n for n in range(1, most + 1) if rates.substeps % n == 0)
         self._pair = pair = Pair(
             PairParameters(
                 parameters("drive", DriveParameters, drive),
@@ -91,12 +94,11 @@ class BulletPlant:
                 self._grip,
                 parameters("coupling", CouplingParameters, coupling),
                 parameters("robot", RobotParameters, robot),
+                walker,
             ),
             step,
+            self._held,
         )
-        # Whole numbers of held steps in a control step: a new intent acts at once.
-        most = 1 if pair.hands.yields else MAX_HELD
-        self._held = max(n for n in range(1, most + 1) if rates.substeps % n == 0)
         period = step * self._held
         self._gait = Gait(gait, period)
         self._walker = Walker(walker, pair.body, pair.place, self._gait, pair.human.mass, period)
@@ -207,7 +209,9 @@ class BulletPlant:
             if not (math.hypot(*velocity[:2]) < MAX_SPEED and abs(velocity[2]) < MAX_RATE):
                 raise SimulationError(
                     f"the {name} moves at ({velocity[0]:.3g}, {velocity[1]:.3g}) m/s and "
-                    f"{velocity[2]:.3g} rad/s: diverged (beyond {MAX_SPEED} m/s, {MAX_RATE} rad/s)"
+                    f"{velocity[2]:.3g} rad/s: diverged (beyond {MAX_SPEED} m/s, "
+                    f"{MAX_RATE} rad/s); "
+                    "see what was commanded, and the gains of walker, grip and drive"
                 )
         x, y, yaw, vx, vy, rate = pair.base_state
         human = pair.human_state

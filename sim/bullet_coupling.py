@@ -9,9 +9,16 @@ from .bullet_engine import engine
 from .bullet_grip import Wrench
 from .errors import InputError
 from .outline import Outline, rectangle
+from .parameters import Range, require_effect, require_ranges
 from .urdf import Rigid, Vector
 
 COUPLINGS = ("handle", "stretcher")
+RANGES: dict[str, Range] = {
+    "mass": (0.5, 150.0, "kg"),
+    "length": (0.3, 4.0, "m"),
+    "width": (0.05, 2.0, "m"),
+}
+"""What two can carry (inferred)."""
 THICKNESS = 0.02
 """Of a load, m."""
 
@@ -31,7 +38,8 @@ class CouplingParameters:
     Raises
     ------
     InputError
-        If the kind is unknown, or a number is not positive.
+        If the kind is unknown, a number is outside of `RANGES`, or one is given though there is
+        no load.
     """
 
     kind: str = "handle"
@@ -42,9 +50,14 @@ class CouplingParameters:
     def __post_init__(self) -> None:
         if self.kind not in COUPLINGS:
             raise InputError(f"kind = {self.kind!r}: must be one of {', '.join(COUPLINGS)}")
-        for name in ("mass", "length", "width"):
-            if not getattr(self, name) > 0.0:
-                raise InputError(f"{name} = {getattr(self, name)}: must be above 0")
+        require_ranges(self, RANGES)
+        require_effect(self, {"stretcher": RANGES})
+
+    def load(self, clamp: Vector) -> Rigid:
+        """Return the load in the axes in which its clamp is at a place, m; it reaches backwards."""
+        x, y, z = clamp
+        inertia = self.mass * (self.length**2 + self.width**2) / 12.0
+        return Rigid(self.mass, (x - self.length / 2.0, y, z), inertia, {})
 
 
 def load_outline(parameters: CouplingParameters, height: float) -> Outline:
@@ -75,12 +88,9 @@ class Load:
         handle: Vector,
         rises: bool = False,
     ) -> None:
-        p = parameters
         self._client = client
         self.handle = handle
-        inertia = p.mass * (p.length**2 + p.width**2) / 12.0
-        rigid = Rigid(p.mass, (-p.length / 2.0, 0.0, handle[2]), inertia, {})
-        self.slab = Slab(client, "load", rigid, rises)
+        self.slab = Slab(client, "load", parameters.load((0.0, 0.0, handle[2])), rises)
         self._clamp = engine.createConstraint(
             base.body,
             base.link,

@@ -14,11 +14,14 @@ from .bullet_view import Look
 from .bullet_wheels import WheelBase
 from .drive import DriveParameters
 from .errors import InputError
+from .gains import Gains, refuse_unstable
 from .grip import GripParameters
 from .human_body import arm_outlines, eye, human_body, trunk_outline
 from .outline import Bodies
 from .robot import RobotParameters, robot_of, two_hands
+from .stability import Masses
 from .urdf import Vector
+from .walker import WalkerParameters
 
 SOLVER_ITERATIONS = {"slip": 10, "wheels": 50}
 """By drive. Grips alone come within 0.01 N of what 200 iterations give, contacts take longer."""
@@ -33,6 +36,7 @@ class PairParameters:
     grip: GripParameters
     coupling: CouplingParameters
     robot: RobotParameters
+    walker: WalkerParameters = WalkerParameters()
 
 
 class Pair:
@@ -43,14 +47,16 @@ class Pair:
     parameters : PairParameters
     step : float
         Physics step in s.
+    held : int
+        Physics steps for which the human's forces are held.
 
     Raises
     ------
     InputError
-        If the robot cannot be had, or the human cannot hold it.
+        If the robot cannot be had, or the human cannot hold it, or gains are too high.
     """
 
-    def __init__(self, parameters: PairParameters, step: float) -> None:
+    def __init__(self, parameters: PairParameters, step: float, held: int = 1) -> None:
         drive, coupling, hand = parameters.drive, parameters.coupling, parameters.body.hand
         if drive.kind == "wheels" and parameters.robot.urdf is not None:
             raise InputError("drive.kind = 'wheels': only the robot that ships has wheels")
@@ -70,6 +76,9 @@ class Pair:
         """Where the trunk walks, base axes: m, m, rad."""
         self.look = Look(robot.urdf, self.body, coupling if carried else None, robot.handle)
 
+        load = coupling.load(robot.handle) if carried else None
+        moved = Masses(robot.rigid, load, self.body, self.place, drive)
+        refuse_unstable(moved, Gains(parameters.walker, parameters.grip), step, held)
         outlines = {"base": robot.outline, "human": trunk_outline(parameters.body)}
         if carried:
             outlines["load"] = load_outline(coupling, robot.handle[2])
@@ -82,9 +91,11 @@ class Pair:
         engine.setPhysicsEngineParameter(
             numSolverIterations=SOLVER_ITERATIONS[drive.kind],
             solverResidualThreshold=0.0,  # its default ends the iteration 0.04 N too early
+            useSplitImpulse=0,  # else a joint more than 0.04 rad beyond its limit stays there
             physicsClientId=client,
         )
         stands = drive.kind == "wheels"
+        self._owner = object() if stands else None
         base = WheelBase if stands else SlipBase
         self.base: Base = base(client, robot.rigid, drive, step)
         # Heights settle on the floor's contacts; planar joints would take the weight off them.
@@ -92,9 +103,9 @@ class Pair:
         # A yielding grip joins no link: a hand of its own would fall, for ever.
         hands_rise = stands and parameters.grip.kind == "rigid"
         self.human = Chain(client, self.body.urdf(hands_rise), self.body.joints)
-        held = self.load.slab if self.load else self.base
-        reference = handles[0] if carried else robot.handle
-        self.hands = Hands(parameters.grip, client, held, self.human, self.body, handles, reference)
+        thing = self.load.slab if self.load else self.base
+        origin = handles[0] if carried else robot.handle
+        self.hands = Hands(parameters.grip, client, thing, self.human, self.body, handles, origin)
         self.base_state: State = ()
         self.human_state: State = ()
         self.load_state: State = ()
@@ -111,11 +122,22 @@ class Pair:
     def save(self) -> Any:
         """Return what `restore` takes."""
         states = self.base_state, self.human_state, self.load_state
-        return states, self.base.save(), self.hands.save()
+        return states, self.base.save(), self.hands.save(), self._owner
 
     def restore(self, saved: Any) -> None:
-        """Go on from a saved state."""
-        states, drive, hands = saved
+        """Go on from a saved state.
+
+        Raises
+        ------
+        InputError
+            If it is kept by the engine, for another pair.
+        """
+        states, drive, hands, owner = saved
+        if owner is not self._owner:
+            raise InputError(
+                "restore: with drive.kind = 'wheels' the engine keeps a state, "
+                "so it can be restored only into the environment that saved it"
+            )
         self.put(*states)
         self.hands.restore(hands)
         self.base.restore(drive)

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from .bullet_engine import engine
-from .bullet_floor import lay_floor
+from .bullet_floor import Floor, floor_areas, lay_floor
 from .footprint import Rectangle, furniture, pieces, walls
 from .pedestrians import Pedestrian
 from .world import World
@@ -41,11 +39,17 @@ class Scenery:
     client : int
         Where to build it.
     world : World
+    floor : bool
+        Lay a floor; pictures get theirs painted (`cowalk.sim.bullet_floor.Floor`).
     """
 
-    def __init__(self, client: int, world: World) -> None:
+    def __init__(self, client: int, world: World, floor: bool = True) -> None:
         self._client = client
-        self._floor(world)
+        areas = floor_areas(world, MARGIN)
+        self.floor = Floor(areas)
+        """Paints the floor."""
+        self.flat = [body for area in areas if floor for body in lay_floor(client, *area)]
+        """Bodies that lie on the floor or are it."""
         for wall in walls(world, MARGIN):
             across = wall.half_length < wall.half_width or wall.yaw != 0.0
             for piece in pieces(wall, WALL_PIECE):
@@ -54,7 +58,7 @@ class Scenery:
             self._furnish(furniture(item), item.top)
         for thing in world.obstacles:
             height = thing.top if thing.solid else 0.004
-            self._place(
+            body = self._place(
                 self._shape(
                     engine.GEOM_CYLINDER,
                     SOLID if thing.solid else PUDDLE,
@@ -63,6 +67,8 @@ class Scenery:
                 ),
                 (thing.x, thing.y, height / 2.0),
             )
+            if not thing.solid:
+                self.flat.append(body)
         self._walkers = [
             (walker, self._person(walker, SHIRTS[number % len(SHIRTS)]))
             for number, walker in enumerate(world.pedestrians)
@@ -81,20 +87,6 @@ class Scenery:
             for part, (ahead, left, up) in parts:
                 place = (x + cos * ahead - sin * left, y + sin * ahead + cos * left, up)
                 engine.resetBasePositionAndOrientation(part, place, turn, self._client)
-
-    def _floor(self, world: World) -> None:
-        points = np.array([*world.path.points, world.start[:2]])
-        left, bottom = points.min(axis=0) - MARGIN
-        right, top = points.max(axis=0) + MARGIN
-        if world.corridor:
-            half = world.corridor.width / 2.0
-            bottom, top = -half, half
-            for branch in world.corridor.side_corridors:
-                edge = half + branch.length
-                low, high = (half, edge) if branch.side == "left" else (-edge, -half)
-                begin = branch.x - branch.width / 2.0
-                lay_floor(self._client, (begin, begin + branch.width), (low, high))
-        lay_floor(self._client, (left, right), (bottom, top))
 
     def _block(self, box: Rectangle, height: float, colour: Colour, base: float = 0.0) -> None:
         shape = self._shape(

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from PIL import Image
 
 from .bullet_coupling import THICKNESS, CouplingParameters
 from .bullet_engine import connect, disconnect, engine, load
@@ -91,7 +92,7 @@ class Viewer:
         self._carried = self._stretcher(look) if look.load else None
         self._walked: tuple[float, float] | None = None
         self._phase = 0.0
-        self._scenery = Scenery(self._client, world)
+        self._scenery = Scenery(self._client, world, floor=gui)
         if gui:
             engine.configureDebugVisualizer(
                 engine.COV_ENABLE_RENDERING, 1, physicsClientId=self._client
@@ -203,7 +204,12 @@ class Viewer:
 
     def picture(self, width: int, height: int) -> NDArray[np.uint8]:
         """Return what the chase camera sees, uint8, shape (height, width, 3)."""
-        return photograph(self._client, self.camera("chase", width, height))[0]
+        return np.asarray(self.look(self.camera("chase", width, height))[0])
+
+    def look(self, camera: Camera) -> tuple[Image.Image, Image.Image]:
+        """Return what a camera sees, and the mask of what hides things drawn on the floor."""
+        scenery = self._scenery
+        return photograph(self._client, camera, scenery.floor.paint(camera), scenery.flat)
 
     def close(self) -> None:
         """Free the world. May be called twice."""

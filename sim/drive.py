@@ -7,9 +7,32 @@ from dataclasses import dataclass
 from typing import Any
 
 from .errors import InputError
+from .parameters import Range, require_effect, require_ranges
 from .wheels import limited
 
 DRIVES = ("slip", "wheels")
+ONLY = {
+    "slip": ("gain_forward", "gain_sideways", "gain_yaw", "max_torque"),
+    "wheels": ("friction",),
+}
+"""What has an effect with one kind alone."""
+RANGES: dict[str, Range] = {
+    "gain_forward": (10.0, 1e6, "N s/m"),
+    "gain_sideways": (10.0, 1e6, "N s/m"),
+    "gain_yaw": (1.0, 1e5, "N m s/rad"),
+    "max_force": (1.0, 1e4, "N"),
+    "max_torque": (1.0, 1e4, "N m"),
+    "max_speed": (0.01, 5.0, "m/s"),
+    "max_rate": (0.01, 10.0, "rad/s"),
+    "max_acceleration": (0.01, 100.0, "m/s^2"),
+    "max_rate_change": (0.01, 100.0, "rad/s^2"),
+    "wheel_track": (0.05, 2.0, "m"),
+    "wheel_radius": (0.02, 0.5, "m"),
+    "max_wheel_speed": (0.1, 500.0, "rad/s"),
+    "delay": (0.0, 1.0, "s"),
+    "friction": (0.05, 3.0, ""),
+}
+"""What a base that walks with people can have (inferred); outside it does not move, or stop."""
 
 
 @dataclass(frozen=True)
@@ -26,7 +49,7 @@ class DriveParameters:
     gain_yaw : float
         Torque per slip of the turning rate, N m s/rad. Slip only.
     max_force, max_torque : float
-        Limits of the motors along the base (N) and about it (N m).
+        Limits of the motors along the base (N) and about it (N m); the latter for slip only.
     max_speed, max_rate : float
         Limits of the command, m/s and rad/s.
     max_acceleration, max_rate_change : float
@@ -43,7 +66,8 @@ class DriveParameters:
     Raises
     ------
     InputError
-        If the kind is unknown, or a number has the wrong sign.
+        If the kind is unknown, a number is outside of `RANGES`, or one is given that has no
+        effect with the kind.
     """
 
     kind: str = "slip"
@@ -65,15 +89,8 @@ class DriveParameters:
     def __post_init__(self) -> None:
         if self.kind not in DRIVES:
             raise InputError(f"kind = {self.kind!r}: must be one of {', '.join(DRIVES)}")
-        may_be_zero = ("gain_forward", "gain_sideways", "gain_yaw", "delay", "friction")
-        for name, value in vars(self).items():
-            if name == "kind":
-                continue
-            if not (value > 0.0 or (value == 0.0 and name in (*may_be_zero, *_FORCES))):
-                raise InputError(f"{name} = {value}: must be above 0")
-
-
-_FORCES = ("max_force", "max_torque")
+        require_ranges(self, RANGES)
+        require_effect(self, ONLY)
 
 
 class Command:

@@ -10,15 +10,17 @@ import numpy as np
 from gymnasium.spaces import Box, Dict
 from pettingzoo import ParallelEnv
 
+from .actions import Actions
 from .contact import blocked_start
 from .errors import InputError, SimulationError
-from .eyes import Eyes
 from .motion import Array, TwistBounds
-from .observation import OBSTACLE_COLUMNS, OBSTACLE_ROWS, Observation
+from .observation import Observation
 from .path import Path
+from .perception import Perception, observation_space
 from .plant import Plant, PlantState, Rates
 from .plants import PLANTS
 from .reward import Reward
+from .saved import Saved, checked
 from .seats import SEATS
 from .sensor import ForceSensor, Reading
 from .sensor_parameters import SensorParameters
@@ -32,8 +34,7 @@ _SAVED = ("agents", "_step_count", "_sensor", "_generator", "_state", "_reading"
 """What of an environment changes within an episode, beside its plant."""
 
 
-def _box(*shape: int) -> Box:
-    return Box(-np.inf, np.inf, shape, np.float64)
+CLOSED = "this environment is closed: make a new one"
 
 
 class CowalkEnv(ParallelEnv[str, Observation, Array]):
@@ -104,6 +105,14 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         if render_mode not in (None, *self.metadata["render_modes"]):
             raise InputError(f"render_mode = {render_mode!r}; known: None, human, rgb_array")
         self.render_mode = render_mode
+        self._arguments = {
+            "world": world,
+            "plant": plant,
+            "plant_parameters": dict(plant_parameters or {}),
+            "rates": rates,
+            "sensor": sensor,
+            "duration": duration,
+        }
         constructor = PLANTS.get(plant)
         arguments = dict(plant_parameters or {})
         if render_mode == "human" and "gui" in inspect.signature(constructor).parameters:
@@ -112,36 +121,16 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self._window_needed = render_mode == "human" and "gui" not in arguments
         self.possible_agents = list(SEATS)
         self.agents: list[str] = []
-        limit = np.full(2, force_limit)
-        self.action_spaces = {
-            "human": Box(-limit, limit, dtype=np.float64),
-            "automation": Box(np.array(bounds.lower), np.array(bounds.upper), dtype=np.float64),
-        }
-        space = Dict(
-            {
-                "twist": _box(2),
-                "force": _box(rates.samples, 2),
-                "wrench": _box(rates.samples, 6),
-                "force_valid": _box(rates.samples),
-                "pose": _box(3),
-                "pose_world": _box(3),
-                "obstacles": _box(OBSTACLE_ROWS, OBSTACLE_COLUMNS),
-                "time": _box(1),
-            }
-        )
-        self.observation_spaces = dict.fromkeys(SEATS, space)
-        self._action_limits = {
-            seat: tuple(zip(box.low.tolist(), box.high.tolist(), strict=True))
-            for seat, box in self.action_spaces.items()
-        }
-        bodies = self._plant.bodies
+        self._actions = Actions(bounds, force_limit)
+        self.action_spaces = self._actions.spaces
+        self.observation_spaces = dict.fromkeys(SEATS, observation_space(rates.samples))
         self._distances = self._plant.distances(world)
         self._reward = Reward(pace, rates.period)
-        self._eyes = {seat: Eyes(world, seat, bodies.eyes[seat]) for seat in SEATS}
+        self._perceive = Perception(world, self._plant.bodies, rates.samples)
         self._sensor = ForceSensor(sensor, rates.sensor)
-        self._felt = np.ones(rates.samples)
         self._generator = np.random.default_rng()
         self._step_count = 0
+        self._started = self._closed = False
         self.applied = (0.0, 0.0), (0.0, 0.0)
         """Force (N) and twist (m/s, rad/s) of the last step, clipped to the action spaces."""
 
@@ -161,6 +150,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
     @property
     def plant_state(self) -> PlantState:
         """State of the plant after the last step or reset: truth, not for the seats."""
+        self._require("plant_state")
         return self._state
 
     def reset(
@@ -179,12 +169,17 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         ------
         InputError
             If a body starts in touch with something solid.
+        SimulationError
+            If the environment is closed.
         """
+        if self._closed:
+            raise SimulationError(CLOSED)
         if seed is not None:
             self._generator = np.random.default_rng(seed)
         plant_rng, sensor_rng = self._generator.spawn(2)
         self.agents = list(SEATS)
         self._step_count = 0
+        self._started = True
         self._sensor.reset(sensor_rng)
         self._state = self._plant.reset(self.world, plant_rng)
         self._reading = self._sensor.measure(self._state.wrench_on_base, self._state.mount)
@@ -216,12 +211,14 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         Raises
         ------
         SimulationError
-            If an action is not finite, or the plant cannot go on.
+            If an action is not finite, no episode is under way, or the plant cannot go on.
         """
         if not self.agents:
-            raise SimulationError("no episode is under way: call reset before step")
-        force = self._bounded("human", actions["human"])
-        twist = self._bounded("automation", actions["automation"])
+            what = "no episode is under way: call reset before step"
+            raise SimulationError(CLOSED if self._closed else what)
+        bounded, now = self._actions.bounded, self._time
+        force = bounded("human", actions["human"], now)
+        twist = bounded("automation", actions["automation"], now)
         self.applied = force, twist
         state = self._state = self._plant.step(twist, force)
         self._step_count += 1
@@ -246,31 +243,68 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
             {seat: dict(self._info) for seat in SEATS},
         )
 
-    def save(self) -> Any:
-        """Return the whole state within an episode, for `restore`: opaque, and never changed."""
+    def save(self) -> Saved:
+        """Return the whole state within an episode, for `restore`: opaque, and never changed.
+
+        Raises
+        ------
+        SimulationError
+            If there was no `reset` yet, or the environment is closed.
+        """
+        self._require("save", opened=True)
         # Copied as one, so that what its parts share stays shared.
         own = copy.deepcopy({name: vars(self)[name] for name in _SAVED})
-        return self._plant.save(), own
+        return Saved(self._arguments, self._plant.save(), own)
 
-    def restore(self, saved: Any) -> dict[str, Observation]:
-        """Go on from a saved state of this environment, bit for bit; return what is seen there."""
-        plant, own = saved
-        self._plant.restore(plant)
-        self.__dict__.update(copy.deepcopy(own))
+    def restore(self, saved: Saved) -> dict[str, Observation]:
+        """Go on from a saved state, bit for bit; return what is seen there.
+
+        It may come from another environment that was made with the same arguments, except with
+        the drive "wheels", where the engine keeps it.
+
+        Raises
+        ------
+        InputError
+            If it is the state of an environment that was made otherwise.
+        SimulationError
+            If this environment is closed.
+        """
+        if self._closed:
+            raise SimulationError(CLOSED)
+        saved = checked(saved, self._arguments)
+        self._plant.restore(saved.plant)
+        self.__dict__.update(copy.deepcopy(dict(saved.own)))
+        self._started = True
         return self._observations()
+
+    def _require(self, what: str, opened: bool = False) -> None:
+        """Refuse what needs an episode, under way or over, and perhaps an open environment."""
+        if self._closed and opened:
+            raise SimulationError(CLOSED)
+        if not self._started:
+            raise SimulationError(f"no episode has begun: call reset before {what}")
 
     @property
     def measured_force(self) -> Array:
         """Planar force that the sensor read in the last step, N, base axes, shape (samples, 2)."""
+        self._require("measured_force")
         return self._reading.force
 
     @property
     def sensor_reading(self) -> Reading:
         """All that it read, in its own axes too, with flags for what was lost or out of range."""
+        self._require("sensor_reading")
         return self._reading
 
     def render(self) -> np.ndarray | None:
-        """Return a picture, uint8, shape (480, 640, 3), or show it in mode ``"human"``."""
+        """Return a picture, uint8, shape (480, 640, 3), or show it in mode ``"human"``.
+
+        Raises
+        ------
+        SimulationError
+            If there was no `reset` yet, or the environment is closed.
+        """
+        self._require("render", opened=True)
         if self.render_mode == "rgb_array":
             return self._plant.render(640, 480)
         if self._window_needed:
@@ -281,6 +315,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
 
     def close(self) -> None:
         """Free the plant. May be called twice."""
+        self._closed, self.agents = True, []
         self._plant.close()
 
     @property
@@ -288,42 +323,10 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         """Since reset, s."""
         return self._step_count / self.rates.control
 
-    def _bounded(self, seat: str, action: Array) -> tuple[float, float]:
-        if len(action) != 2:
-            raise SimulationError(
-                f"the {seat}'s action is {action!r}: it must be 2 numbers, without batch axes"
-            )
-        first, second = float(action[0]), float(action[1])
-        # The sum is NaN or infinite exactly if a part is.
-        if not -1e300 < first + second < 1e300:
-            what = "force" if seat == "human" else "twist"
-            raise SimulationError(
-                f"the {seat}'s {what} is [{first}, {second}] at "
-                f"t = {self._step_count * self.rates.period:g} s: every action must be finite"
-            )
-        (low_1, high_1), (low_2, high_2) = self._action_limits[seat]
-        return min(max(first, low_1), high_1), min(max(second, low_2), high_2)
-
     def _observations(self) -> dict[str, Observation]:
         state = self._state
         self._relative = self.world.path.relative(*state.pose)
-        twist, time = np.array(state.twist), np.array([self._time])
-        force = {"human": state.force_on_base, "automation": self._reading.force}
-        wrench = {"human": state.wrench_on_base, "automation": self._reading.wrench}
-        valid = {"human": self._felt, "automation": self._reading.valid}
-        return {
-            seat: Observation(
-                twist=twist.copy(),
-                force=force[seat].copy(),
-                wrench=wrench[seat].copy(),
-                force_valid=valid[seat].astype(float),
-                pose=np.array(self._relative),
-                pose_world=np.array(state.pose),
-                obstacles=self._eyes[seat].look(state.pose, state.human_pose, self._time),
-                time=time.copy(),
-            )
-            for seat in SEATS
-        }
+        return self._perceive(state, self._reading, self._relative, self._time)
 
 
 def parallel_env(world: World = STRAIGHT_CORRIDOR, **arguments: Any) -> CowalkEnv:

@@ -18,13 +18,19 @@ FORE_AFT, LATERAL = (0.036, 0.066, 0.159), (0.027, 0.060, 0.115)
 """Peak-to-peak sway of the trunk at `PERCENTILES`, m, and
 """
 STEP_FREQUENCY = (1.63, 1.82, 2.08)
-"""step frequency, Hz, measured over 110 walking trials at the walkers' own speed."""
+"""step frequency, Hz, measured over 110 walking trials at the walkers' own speed. Handed down with
+the project's model; the publication behind them was searched for and not found, so treat the
+5-95 % band as unconfirmed. Other people's cadence lies within it: 117 steps a minute, 1.95 Hz, at
+1.31 m/s (women) and 1.54 m/s (men; Murray and others 1964 and 1970, as tabulated by D. Thompson,
+University of Oklahoma, "Stride analysis")."""
 PREFERRED_SPEED = 1.3
 """Speed to which the step frequencies belong, m/s. Inferred: comfortable speed of adults
 (1.27-1.46 m/s, Bohannon 1997, Age and Ageing 26:15); the trials do not state theirs."""
 CADENCE_EXPONENT = 0.58
-"""Step frequency grows with speed^0.58, as step length grows with speed^0.42 (Grieve and Gear
-1966, Ergonomics 9:379, 10.1080/00140136608964399; Kuo 2001, J Biomech Eng 123:264)."""
+"""Step frequency grows with speed^0.58, as step length grows with speed^0.42. That adults follow a
+power of speed is from Grieve and Gear (1966, Ergonomics 9:379, 10.1080/00140136608964399), of which
+the abstract could be read; the exponent goes under Grieve's name in the models of Kuo and others
+(2001, J Biomech Eng 123:264; their code for a rimless wheel has s = v^0.42, "Grieve eqn")."""
 FULL_SPEED = 0.3
 """Speed below which the sway shrinks in proportion, m/s (inferred): standing still is still."""
 PACE_LAG = 0.5

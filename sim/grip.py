@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from .errors import InputError
+from .parameters import require_effect
 
 GRIPS = ("rigid", "compliant")
 ON_LOSS = ("end", "stop")
@@ -40,7 +41,8 @@ class GripParameters:
     Raises
     ------
     InputError
-        If a kind is unknown or a number has the wrong sign.
+        If a kind is unknown, a number has the wrong sign, or one is given that has no effect
+        with the kind.
     """
 
     kind: str = "rigid"
@@ -60,8 +62,8 @@ class GripParameters:
             raise InputError(f"on_loss = {self.on_loss!r}: must be one of {', '.join(ON_LOSS)}")
         for name in ("stiffness", "damping", "turn_stiffness", "turn_damping"):
             value = getattr(self, name)
-            if len(value) != 3 or not min(value) >= 0.0:
-                raise InputError(f"{name} = {value}: must be 3 numbers of at least 0")
+            if len(value) != 3 or not (min(value) >= 0.0 and max(value) < math.inf):
+                raise InputError(f"{name} = {value}: must be 3 finite numbers of at least 0")
         if self.kind == "compliant" and not min(self.stiffness[:2]) > 0.0:
             raise InputError(f"stiffness = {self.stiffness}: must be above 0 along x and y")
         for name in ("slip_force", "slip_length", "release_force"):
@@ -70,6 +72,7 @@ class GripParameters:
                 raise InputError(f"{name} = {value}: must be above 0")
         if self.slip_force is not None and self.kind == "rigid":
             raise InputError(f"slip_force = {self.slip_force}: only a compliant grip can slip")
+        require_effect(self, {"compliant": ("stiffness", "damping", "slip_length")})
 
 
 class Bushing:

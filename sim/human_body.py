@@ -98,13 +98,14 @@ class HumanBody:
             if hands_rise:
                 tip = (fore.length, 0.0, -fore.drop)
                 parts.append(link(f"hand_{side}", WEIGHTLESS, (0.0, 0.0, 0.0), WEIGHTLESS))
-                parts.append(
-                    slider(f"lift_{side}", f"forearm_{side}", f"hand_{side}", "0 0 1", tip)
-                )
+                fore_name, hand = f"forearm_{side}", f"hand_{side}"
+                parts.append(slider(f"lift_{side}", fore_name, hand, "0 0 1", tip, LIFT_RANGE))
         return planar("human", "trunk", "".join(parts))
 
 
 ARM_JOINTS = ("shoulder", "elbow")
+LIFT_RANGE = (-0.3, 0.3)
+"""How far a hand follows its handle, m: one that let go hangs at its end."""
 WEIGHTLESS = 1e-3
 """Mass (kg) and inertia (kg m^2) of what the engine needs to have some: it weighs 0.01 N."""
 

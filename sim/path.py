@@ -40,7 +40,7 @@ class Path:
     def __post_init__(self) -> None:
         points = np.asarray(self.points, dtype=float)
         if points.ndim != 2 or points.shape[-1] != 2 or len(points) < 2:
-            raise ValueError(f"a path needs at least two points (x, y), got shape {points.shape}")
+            raise ValueError(f"a path needs at least two points (x, y), not {len(points)}")
         legs = np.diff(points, axis=0)
         lengths = np.hypot(legs[:, 0], legs[:, 1])
         if not np.all(lengths > 0.0):

@@ -35,10 +35,12 @@ HUMAN_PLACE = (-0.10, -0.65, 0.0)
 
 
 def _ratio(fast_name: str, fast: int, slow_name: str, slow: int) -> int:
-    if slow <= 0 or fast < slow or fast % slow:
+    if slow <= 0:
+        raise InputError(f"rates.{slow_name} = {slow} Hz: it must be above 0")
+    if fast < slow or fast % slow:
         raise InputError(
             f"rates.{fast_name} = {fast} Hz is not a whole multiple of {slow_name} = {slow} Hz; "
-            f"{max(1, round(fast / slow)) * slow if slow > 0 else 'a positive rate'} would be"
+            f"{max(1, round(fast / slow)) * slow} would be"
         )
     return fast // slow
 

@@ -16,11 +16,15 @@ from .errors import InputError
 T = TypeVar("T")
 
 
+def nearest(name: str, known: list[str]) -> str | None:
+    """Return the known name that another one was most likely meant to be, if there is any."""
+    return next(iter(difflib.get_close_matches(name, known, n=1)), None)
+
+
 def did_you_mean(name: str, known: list[str]) -> str:
-    """Return what would be right instead of a name: the nearest one and the whole list."""
-    near = difflib.get_close_matches(name, known, n=1)
-    hint = f"did you mean {near[0]!r}? " if near else ""
-    return f"{hint}Known: {', '.join(known)}"
+    """Return what would be right instead of a name, to stand after a semicolon or a colon."""
+    near, names = nearest(name, known), ", ".join(known)
+    return f"did you mean {near!r}? Known: {names}" if near else f"known: {names}"
 
 
 @cache

@@ -11,6 +11,9 @@ import numpy as np
 from .errors import InputError
 from .registry import did_you_mean
 
+LONGEST_LATENCY = 1.0
+"""s; nobody walks by forces that are older."""
+
 
 @dataclass(frozen=True)
 class SensorParameters:
@@ -87,6 +90,10 @@ class SensorParameters:
             value = getattr(self, name)
             if not (np.all(np.isfinite(value)) and np.min(value, initial=0.0) >= 0.0):
                 raise InputError(f"{name} = {value} {unit}: it must be finite and at least 0")
+        if self.latency > LONGEST_LATENCY:
+            raise InputError(
+                f"latency = {self.latency} s: it must lie between 0 and {LONGEST_LATENCY:g} s"
+            )
         for name, unit in (("range", "N"), ("torque_range", "N m")):
             if not getattr(self, name) > 0.0:
                 raise InputError(f"{name} = {getattr(self, name)} {unit}: it must be above 0")

@@ -211,13 +211,24 @@ def hinge(
     )
 
 
-def slider(name: str, parent: str, child: str, axis: str, place: Vector = (0.0, 0.0, 0.0)) -> str:
-    """Return a joint that slides freely along an axis."""
+FREE = (1.0, -1.0)
+"""Limits that the engine takes for none."""
+
+
+def slider(
+    name: str,
+    parent: str,
+    child: str,
+    axis: str,
+    place: Vector = (0.0, 0.0, 0.0),
+    limits: tuple[float, float] = FREE,
+) -> str:
+    """Return a joint that slides along an axis, freely or within limits (m)."""
     x, y, z = place
     return (
         f'<joint name="{name}" type="prismatic"><parent link="{parent}"/><child link="{child}"/>'
         f'<origin xyz="{x!r} {y!r} {z!r}"/><axis xyz="{axis}"/>'
-        '<limit lower="1" upper="-1" effort="1e9" velocity="1e9"/></joint>'
+        f'<limit lower="{limits[0]!r}" upper="{limits[1]!r}" effort="1e9" velocity="1e9"/></joint>'
     )
 
 

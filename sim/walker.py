@@ -11,9 +11,19 @@ from collections import deque
 from dataclasses import dataclass
 from typing import Any
 
-from .errors import InputError
 from .gait import Gait
 from .human_body import HumanBody
+from .parameters import Range, require_ranges
+
+RANGES: dict[str, Range] = {
+    "stiffness": (0.0, 1e9, "N/m"),
+    "damping": (0.0, 1e9, "N s/m"),
+    "yaw_stiffness": (0.0, 1e9, "N m/rad"),
+    "yaw_damping": (0.0, 1e9, "N m s/rad"),
+    "delay": (0.0, 0.3, "s"),
+    "hand_stiffness": (0.0, 1e9, "N/m"),
+    "hand_damping": (0.0, 1e9, "N s/m"),
+}
 
 
 @dataclass(frozen=True)
@@ -29,14 +39,17 @@ class WalkerParameters:
     delay : float
         Delay of both, s: about that of a long-latency stretch reflex.
     hand_stiffness, hand_damping : float
-        Of the relaxed arm about its posture, seen at the hand, N/m and N s/m. The stiffness is
-        the low end of the 50-300 N/m, the damping of the 5-30 N s/m, measured for human arms.
-        Two arms share them.
+        Of the arm about its posture, seen at the hand, N/m and N s/m, from the lower part of the
+        project's ranges of 50-300 N/m and 5-30 N s/m. Two arms share them. Such numbers come from
+        small displacements of a held hand (Mussa-Ivaldi, Hogan and Bizzi 1985, J Neurosci
+        5:2732; Dolan, Friedman and Nagurka 1993, IEEE Trans SMC 23:698); the ends of the ranges
+        could not be looked up there, so they count as typical.
 
     Raises
     ------
     InputError
-        If one is negative.
+        If one is outside of `RANGES`. What is too stiff to be simulated is refused where the
+        bodies are known (`cowalk.sim.gains`).
     """
 
     stiffness: float = 1500.0
@@ -48,9 +61,7 @@ class WalkerParameters:
     hand_damping: float = 10.0
 
     def __post_init__(self) -> None:
-        for name, value in vars(self).items():
-            if not value >= 0.0:
-                raise InputError(f"{name} = {value}: must be at least 0")
+        require_ranges(self, RANGES)
 
 
 class Walker:

@@ -140,7 +140,7 @@ def test_a_module_that_fails_when_imported_is_named(tmp_path, monkeypatch):
 
 
 def test_inherited_fields_of_dataclasses_are_checked():
-    assert "robot.parameters.pair = 3: a list is expected" in refusal("derived", pair=3)
+    assert "robot.parameters.pair = 3: a list of 2 is expected" in refusal("derived", pair=3)
     assert build(WALKERS, component("derived", pair=[3, 4]), "robot").pair == (3.0, 4.0)
 
 

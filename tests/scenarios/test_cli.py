@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from cowalk.scenarios import calibration, compare, paper
+from cowalk.scenarios import calibration, cli_output, compare, paper
 from cowalk.scenarios.results import Trace
 
 
@@ -302,6 +302,23 @@ def test_compare_shows_whatever_scores_there_are(cowalk, scenario_file, monkeypa
         {"smoother": "walk", "lag_s": 7.0},
         {"smoother": "nothing", "lag_s": None},
     ]
+
+
+def test_long_work_says_how_far_it_is_where_there_is_no_terminal(capsys, monkeypatch):
+    clock = iter((0.0, 4.0, 11.0, 11.0, 15.0, 22.0, 22.0))
+    monkeypatch.setattr(cli_output.time, "monotonic", lambda: next(clock))
+    with cli_output.progress_bar("filming walk") as progress:
+        for done in (1, 2, 3, 4):
+            progress(done, 8)
+    said = capsys.readouterr().err
+    assert said == "cowalk: filming walk: 25 %\ncowalk: filming walk: 50 %\n"
+
+
+@pytest.mark.parametrize(
+    ("factor", "said"), [(0.318, "0.32"), (4.56, "4.6"), (44.4, "44"), (1234.0, "1200")]
+)
+def test_a_speed_has_two_digits(factor, said):
+    assert cli_output.two_digits(factor) == said
 
 
 def test_progress_is_shown_on_a_terminal_alone(scenario_file):

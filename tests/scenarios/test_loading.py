@@ -56,7 +56,7 @@ rates: {control: 20.5, fisics: 240}
 world:
   path: {points: [[0, 0], [1, "0"]]}
   obstacles:
-    - {x: 1, y: 2, radius: 1e-1, kindd: puddle}
+    - {x: 1, y: 2, radius: "1e-1", kindd: puddle}
 human:
   name: escalating
   parameters:
@@ -192,6 +192,64 @@ def test_a_value_that_only_a_constructor_can_judge_is_found_at_its_line(scenario
     assert fault.message == "human.parameters.push = -1.0: must not be negative"
 
 
+@pytest.mark.parametrize(
+    ("plant", "key", "words"),
+    [
+        (
+            "drive: {\n  max_force: 0}",
+            "drive.max_force",
+            "max_force = 0.0 N: must lie between 1",
+        ),
+        ("walker: {\n  hand_stiffness: 1e6}", "walker.hand_stiffness", "at most 2200 works"),
+        (
+            "drive: {\n  delay: 0.8}",
+            "drive.delay",
+            "must be shorter than the run, duration = 0.5 s",
+        ),
+        (
+            "robot: {\n  handle: grip}",
+            "robot.handle",
+            "no link 'grip'; known: body, camera, handle",
+        ),
+    ],
+)
+def test_what_only_the_plant_can_judge_is_found_at_its_line(scenario_file, plant, key, words):
+    file = scenario_file(
+        ("plant: unicycle", f"plant: {{name: bullet, parameters: {{{plant}}}}}"),
+        ("duration: 3.0", "duration: 0.5"),
+    )
+    (fault,) = faults(file)
+    assert (fault.line, fault.key) == (4, f"plant.parameters.{key}")
+    assert fault.message.startswith(fault.key)
+    assert words in fault.message
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("name: walk", "name: a/b", "name = 'a/b': a run's folder is named so: it must not"),
+        ("duration: 3.0", "duration: 0", "duration = 0: it must be above 0"),
+        ("name: steady", "name: steady\n  parameters: {level: 2}", "a list of 2 is expected"),
+        ("[[0.0, 0.0], [30.0, 0.0]]", "[[0, 0], 3]", "points.1 = 3: a list of 2 is expected"),
+        ("[[0.0, 0.0], [30.0, 0.0]]", "[[0, 0]]", "at least two points (x, y), not 1"),
+        ("duration: 3.0", "rates: {control: 0}", "rates.control = 0 Hz: it must be above 0"),
+        ("duration: 3.0", "durations: 3.0", "durations: unknown key; did you mean 'duration'? K"),
+        ("duration: 3.0", "zzz: 3.0", "zzz: unknown key; known: name, description"),
+    ],
+)
+def test_a_fault_is_told_in_plain_words(scenario_file, old, new, words):
+    (fault,) = faults(scenario_file((old, new)))
+    assert words in fault.message
+    assert not re.search(r"should|pattern|shape|tuple", fault.message)
+
+
+def test_a_sensor_or_a_human_later_than_the_run_is_refused(scenario_file):
+    late = "human.imperfections=[{name: reaction-delay, parameters: {delay: 4}}]"
+    assert "delay = 4 s: must be shorter than the run" in refusal(scenario_file(), late)
+    message = refusal(scenario_file(), "sensor.latency=0.5", "duration=0.4")
+    assert "sensor.latency = 0.5 s: must be shorter than the run, duration = 0.4 s" in message
+
+
 def test_overrides_replace_values_of_any_kind(scenario_file):
     obstacle = "world: {obstacles: [{x: 1, y: 2, radius: 0.5}], "
     scenario = load(
@@ -208,6 +266,25 @@ def test_overrides_replace_values_of_any_kind(scenario_file):
     assert scenario.world.obstacles[0].x == 9.0
     assert scenario.bounds.upper == (1.0, 0.3)
     assert (scenario.rates.control, scenario.rates.physics, scenario.seed) == (40, 240, 7)
+
+
+@pytest.mark.parametrize(
+    ("written", "number"),
+    [("1e1", 10.0), ("1E+1", 10.0), ("1.5e1", 15.0), ("2.e0", 2.0), (".5e1", 5.0), ("+3e-1", 0.3)],
+)
+def test_a_number_may_have_an_exponent_wherever_yaml_is_read(scenario_file, written, number):
+    file = scenario_file(("duration: 3.0", f"duration: {written}"))
+    assert faults(file) == []
+    assert load(file).duration == number
+    assert load(scenario_file(), [f"duration={written}"]).duration == number
+
+
+def test_text_that_looks_like_a_number_stays_text(scenario_file):
+    file = scenario_file(("name: walk", 'name: "1e5"'), more="description: 1e5 m\n")
+    scenario = load(file)
+    assert (scenario.name, scenario.description) == ("1e5", "1e5 m")
+    file.write_text(to_yaml(scenario))
+    assert load(file) == scenario
 
 
 def test_a_swapped_part_keeps_its_section_but_not_its_parameters(scenario_file):
@@ -233,14 +310,14 @@ def test_a_swapped_part_keeps_its_section_but_not_its_parameters(scenario_file):
         ("humn.parameters.gain=1", "did you mean 'human'?"),
         ("human.parameters.gian=1", "did you mean 'gain'?"),
         ("human.parameters.gain=abc", "a number is expected, not text"),
-        ("human.parameters.level=nan", "a list is expected, not text"),
+        ("human.parameters.level=nan", "a list of 2 is expected, not text"),
         ("human.parameters.gain=nan", "a number is expected, not text"),
         (
             "human.intention.changes=[{pace: -1}]",
             "give either at_time (s) or at_station (m); pace = -1.0: must not be negative",
         ),
         ("human.parameters.gain=true", "not true or false"),
-        ("human=foo", "unknown human 'foo'; Known: bounded-memory, conceding"),
+        ("human=foo", "unknown human 'foo'; known: bounded-memory, conceding"),
         ("world.path.points.2.0=1", "world.path.points has 2 entries, 0 to 1; '2' is none"),
         ("name.x=1", "name is 'walk', there is nothing inside it"),
         ("rates.control=7", "is not a whole multiple"),

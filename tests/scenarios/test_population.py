@@ -144,11 +144,16 @@ def test_a_faulty_file_gets_one_line_with_its_place(example, old, new, message):
     assert "\n" not in str(caught.value)
 
 
+def test_a_population_may_write_numbers_with_exponents(example):
+    population = example(EXAMPLE.replace("weight: 3", "weight: 3e0"))
+    assert population.groups[0].weight == 3.0
+
+
 def test_a_fault_in_the_only_group_is_the_only_fault(example):
     text = "name: one\ngroups:\n  - weight: 0\n    human: {name: steady}\n"
     with pytest.raises(InputError) as caught:
         example(text)
-    assert str(caught.value).endswith(":3: groups.0.weight = 0: it must be above 0.0")
+    assert str(caught.value).endswith(":3: groups.0.weight = 0: it must be above 0")
     with pytest.raises(InputError, match=r"groups.*the list has 0 entries, it needs 1$"):
         example("name: none\ngroups: []\n")
 

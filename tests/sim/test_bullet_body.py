@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from cowalk.sim.anthropometry import BodyParameters
+from cowalk.sim.arm import ELBOW_RANGE
 from cowalk.sim.bullet import BulletPlant
 from cowalk.sim.bullet_bodies import Chain
 from cowalk.sim.bullet_engine import connect, disconnect, engine
@@ -132,6 +133,24 @@ def test_joint_limits_hold(client):
             )
             engine.stepSimulation(client)
         assert chain.read()[3:5] == pytest.approx(limits, abs=1e-3)
+
+
+@pytest.mark.parametrize("rate", [0.5, 5.0, 20.0])
+def test_a_joint_flung_against_its_limit_passes_it_by_a_step_and_comes_back(rate):
+    plant = BulletPlant(Rates(), walker={"hand_stiffness": 0.0, "hand_damping": 0.0})
+    chain = plant._pair.human
+    plant._pair.hands._hold(False)
+    chain.put((0.0, 0.0, 0.0, *plant._pair.body.posture), (0.0, 0.0, 0.0, 0.0, rate))
+    beyond, fastest = [], 0.0
+    for _ in range(480):
+        chain.apply((0.0, 0.0, 0.0, 0.0, 0.5))  # and pressed against it
+        engine.stepSimulation(chain.client)
+        state = chain.read()
+        beyond.append(state[4] - ELBOW_RANGE[1])
+        fastest = max(fastest, state[9])
+    plant.close()
+    assert 0.0 < max(beyond) <= fastest / 240.0 + 0.01
+    assert max(beyond[-100:]) <= 1e-3
 
 
 @pytest.mark.parametrize("hand", ["left", "right", "both"])

@@ -23,9 +23,9 @@ WRIST = {"turn_stiffness": (0.0, 0.0, 1.0), "turn_damping": (0.0, 0.0, 0.05)}
 
 @pytest.fixture(params=OPTIONS, ids="-".join)
 def option(request):
-    drive, grip, coupling, hand = request.param
+    wheels, grip, coupling, hand = request.param
     return {
-        "drive": {"kind": drive},
+        "drive": {"kind": wheels},
         "grip": {"kind": grip, **WRIST},
         "coupling": {"kind": coupling},
         "body": {"hand": hand},
@@ -149,15 +149,8 @@ def test_energy_does_not_grow_when_nobody_pushes(option):
     assert largest[-1] < 1e-3
 
 
-def test_momentum_of_a_coasting_base_changes_by_the_measured_wrench(option):
-    option["drive"] |= {
-        "gain_forward": 0.0,
-        "gain_sideways": 0.0,
-        "gain_yaw": 0.0,
-        "max_force": 0.0,
-        "max_torque": 0.0,
-        "friction": 0.0,
-    }
+def test_momentum_of_a_coasting_base_changes_by_the_measured_wrench(option, coasting):
+    option["drive"] |= coasting[option["drive"]["kind"]]
     plant = BulletPlant(Rates(control=240), **option)
     before = plant.reset(WORLD, np.random.default_rng(0))
     dt, impulse, turn = 1.0 / 240.0, np.zeros(2), 0.0

@@ -7,6 +7,7 @@ import pytest
 
 from cowalk.sim import parallel_env
 from cowalk.sim.bullet import BulletPlant
+from cowalk.sim.bullet_engine import engine
 from cowalk.sim.errors import InputError
 from cowalk.sim.path import Path
 from cowalk.sim.plant import Rates
@@ -154,3 +155,18 @@ def test_on_wheels_a_load_weighs_on_the_base_that_it_is_clamped_to():
     coupling = {"kind": "stretcher", "mass": 8.0}
     state = walk(200, drive={"kind": "wheels"}, coupling=coupling, body={"hand": "both"})[-1]
     np.testing.assert_allclose(state.wrench_on_base[:, 2], -8.0 * 9.81, rtol=2e-3)
+
+
+def test_a_hand_that_lets_go_on_wheels_hangs_at_its_arm():
+    grip = {"kind": "rigid", "release_force": 2.0, "on_loss": "stop"}
+    plant = BulletPlant(Rates(), drive={"kind": "wheels"}, grip=grip)
+    plant.reset(WORLD, np.random.default_rng(0))
+    for _ in range(100):
+        state = plant.step((0.8, 0.0), (0.0, 8.0))
+    assert not state.grip_held
+    human = plant._pair.human
+    (hand,) = (j for name, j in human.links.items() if name.startswith("hand_"))
+    height, speed, *_ = engine.getJointState(human.body, hand, human.client)
+    plant.close()
+    assert height == pytest.approx(-0.3, abs=0.01)
+    assert abs(speed) < 0.1

@@ -46,7 +46,7 @@ def test_a_person_walks_with_all_parts():
 
 def test_a_side_corridor_has_a_floor(monkeypatch):
     laid = []
-    monkeypatch.setattr(bullet_scenery, "lay_floor", lambda _, *edges: laid.append(edges))
+    monkeypatch.setattr(bullet_scenery, "lay_floor", lambda _, *edges: laid.append(edges) or [])
     boxes(World(PATH, Corridor(3.0, (), (SideCorridor(5.0, 2.0, "right", 3.0),))))
     assert laid == [((4.0, 6.0), (-4.5, -1.5)), ((-6.0, 16.0), (-1.5, 1.5))]
 

@@ -11,11 +11,30 @@ from cowalk.sim import parallel_env
 from cowalk.sim.bullet import BulletPlant
 from cowalk.sim.bullet_engine import connect, disconnect
 from cowalk.sim.env import STRAIGHT_CORRIDOR
+from cowalk.sim.errors import InputError, SimulationError
+from cowalk.sim.path import Path
 from cowalk.sim.plant import Rates
 from cowalk.sim.plants import PLANTS
 from cowalk.sim.sensor import SensorParameters
+from cowalk.sim.world import World
 
 FAULTY = SensorParameters(noise_density=0.01, low_pass=60.0, latency=0.01, drop_rate=0.02)
+
+ELSEWHERE = World(Path(((0.0, 0.0), (3.0, 3.0))))
+
+
+@pytest.fixture
+def make():
+    """Make environments that are closed in the end."""
+    made = []
+
+    def one(**arguments):
+        made.append(parallel_env(**arguments))
+        return made[-1]
+
+    yield one
+    for env in made:
+        env.close()
 
 
 def go_on(env, steps):
@@ -50,6 +69,95 @@ def test_an_environment_goes_on_from_where_it_was_saved(plant):
     env.restore(saved)
     assert go_on(env, 200) == rest, "a saved state is not used up"
     env.close()
+
+
+@pytest.mark.parametrize(
+    "arguments", [{"plant": "unicycle"}, {"plant": "bullet"}], ids=lambda given: given["plant"]
+)
+def test_a_state_goes_on_in_another_environment_made_alike(arguments, make):
+    env, other = (make(sensor=FAULTY, **arguments) for _ in range(2))
+    env.reset(seed=5)
+    go_on(env, 5)
+    saved = env.save()
+    other.restore(saved)
+    assert go_on(other, 10) == go_on(env, 10)
+
+
+@pytest.mark.parametrize(
+    ("otherwise", "words"),
+    [
+        ({"world": ELSEWHERE}, "another world; restore it into the environment that saved it"),
+        ({"plant": "unicycle"}, "another plant;"),
+        ({"plant_parameters": {"body": {"hand": "both"}}}, "another plant_parameters;"),
+        ({"rates": Rates(control=40)}, "another rates;"),
+        ({"sensor": FAULTY}, "another sensor;"),
+    ],
+    ids=lambda given: next(iter(given)) if isinstance(given, dict) else "",
+)
+def test_the_state_of_an_environment_made_otherwise_is_refused(otherwise, words, make):
+    env, other = make(), make(**otherwise)
+    env.reset(seed=0)
+    other.reset(seed=0)
+    with pytest.raises(InputError, match=words) as refused:
+        other.restore(env.save())
+    assert "\n" not in str(refused.value)
+    with pytest.raises(InputError, match="not a NoneType"):
+        other.restore(None)
+    assert other.agents
+    go_on(other, 2)
+
+
+def test_on_wheels_a_state_belongs_to_its_environment(make):
+    env, other = (make(plant_parameters={"drive": {"kind": "wheels"}}) for _ in range(2))
+    env.reset(seed=0)
+    other.reset(seed=0)
+    go_on(other, 3)
+    saved = other.save()
+    with pytest.raises(InputError, match="only into the environment that saved it"):
+        env.restore(saved)
+    rest = go_on(other, 5)
+    other.restore(saved)
+    assert go_on(other, 5) == rest
+
+
+def act(env):
+    return env.step({"human": np.zeros(2), "automation": np.zeros(2)})
+
+
+VERBS = {
+    "save": lambda env: env.save(),
+    "step": act,
+    "render": lambda env: env.render(),
+    "plant_state": lambda env: env.plant_state,
+    "measured_force": lambda env: env.measured_force,
+    "sensor_reading": lambda env: env.sensor_reading,
+}
+
+
+@pytest.mark.parametrize("plant", PLANTS.names())
+def test_what_needs_a_reset_says_so(plant):
+    env = parallel_env(plant=plant, render_mode="rgb_array")
+    for name, verb in VERBS.items():
+        with pytest.raises(SimulationError, match=f"call reset before {name}"):
+            verb(env)
+    env.close()
+
+
+@pytest.mark.parametrize("plant", PLANTS.names())
+def test_a_closed_environment_says_so(plant):
+    env = parallel_env(plant=plant, render_mode="rgb_array")
+    env.reset(seed=0)
+    saved = env.save()
+    env.close()
+    env.close()
+    seen = ("plant_state", "measured_force", "sensor_reading")
+    verbs = {name: verb for name, verb in VERBS.items() if name not in seen}
+    verbs |= {"reset": lambda env: env.reset(), "restore": lambda env: env.restore(saved)}
+    for verb in verbs.values():
+        with pytest.raises(SimulationError, match="is closed: make a new one"):
+            verb(env)
+    for name in seen:
+        VERBS[name](env)  # what was last seen is still known
 
 
 def memory():

@@ -1,0 +1,62 @@
+"""What the seats may do in a control step, and what is made of an action beyond it."""
+
+from __future__ import annotations
+
+import numpy as np
+from gymnasium.spaces import Box
+
+from .errors import SimulationError
+from .motion import Array, TwistBounds
+
+_WHAT = {"human": "force", "automation": "twist"}
+
+
+class Actions:
+    """The action spaces of both seats, and actions brought into them.
+
+    Parameters
+    ----------
+    bounds : TwistBounds
+        Of the automation's twist.
+    force_limit : float
+        Of the human's force, either way in each direction, N.
+    """
+
+    def __init__(self, bounds: TwistBounds, force_limit: float) -> None:
+        limit = np.full(2, force_limit)
+        self.spaces = {
+            "human": Box(-limit, limit, dtype=np.float64),
+            "automation": Box(np.array(bounds.lower), np.array(bounds.upper), dtype=np.float64),
+        }
+        self._limits = {
+            seat: (*box.low.tolist(), *box.high.tolist()) for seat, box in self.spaces.items()
+        }
+
+    def bounded(self, seat: str, action: Array, time: float) -> tuple[float, float]:
+        """Return an action, clipped to its space.
+
+        Parameters
+        ----------
+        seat : str
+        action : ndarray, shape (2,)
+        time : float
+            Since reset, s: for the message.
+
+        Raises
+        ------
+        SimulationError
+            If the action is not two finite numbers.
+        """
+        if len(action) != 2:
+            raise SimulationError(
+                f"the {seat}'s action is {action!r}: it must be 2 numbers, without batch axes"
+            )
+        first, second = float(action[0]), float(action[1])
+        # The sum is NaN or infinite exactly if a part is.
+        if not -1e300 < first + second < 1e300:
+            raise SimulationError(
+                f"the {seat}'s {_WHAT[seat]} is [{first}, {second}] at t = {time:g} s: "
+                "every action must be finite"
+            )
+        low_1, low_2, high_1, high_2 = self._limits[seat]
+        return min(max(first, low_1), high_1), min(max(second, low_2), high_2)
