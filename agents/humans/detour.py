@@ -67,10 +67,11 @@ def detour(
             & (along - radius < anticipation)
             & (pass_left > 0.0)
             & (pass_right < 0.0)
-            & (along < nearest)
         )
+        if len(obstacles) > 1:
+            in_the_way = in_the_way & (along < nearest)
+            nearest = m.where(in_the_way, along, nearest)
         # Both detours are open: left is not the longer one.
         shorter = m.where(pass_left + pass_right <= 0.0, pass_left, pass_right)
         aim = m.where(in_the_way, shorter, aim)
-        nearest = m.where(in_the_way, along, nearest)
     return aim

@@ -70,7 +70,7 @@ class ImpedanceHuman(LinearHuman):
     def content(self, outlook: Outlook, observation: Observation) -> tuple[Value, Value]:
         """See `LinearHuman.content`: x_d' plus K/B of the way that x lies behind x_d."""
         m, pace = outlook.m, outlook.pace
-        cos, sin = m.cos(outlook.heading), m.sin(outlook.heading)
+        cos, sin = outlook.cos, outlook.sin
         point = outlook.offset + self.lever * sin
         intended, sideways = self._intended(outlook, point)
         ahead = pace * cos + sideways * sin

@@ -120,8 +120,10 @@ class Outlook(NamedTuple):
         Functions for the values below: floats, or arrays of shape (...).
     pace : float or ndarray
         Speed they want now, m/s.
-    offset, heading : float or ndarray
-        Pose of the base against the path they want now, m and rad.
+    offset : float or ndarray
+        Of the base from the path they want now, m.
+    cos, sin : float or ndarray
+        Of the base's heading against that path.
     aim : float or ndarray
         Offset from that path which they aim for in the end, m.
     ahead, left : float or ndarray
@@ -133,7 +135,8 @@ class Outlook(NamedTuple):
     m: Elementwise
     pace: Value
     offset: Value
-    heading: Value
+    cos: Value
+    sin: Value
     aim: Value
     ahead: Value
     left: Value
@@ -182,10 +185,9 @@ class Intention:
     def twist(self, outlook: Outlook) -> tuple[Value, Value]:
         """Return the wanted v and omega, m/s and rad/s."""
         m, pace, ahead, left = outlook.m, outlook.pace, outlook.ahead, outlook.left
-        distance = m.sqrt(m.maximum(ahead * ahead + left * left, 1e-12))
-        # What lies behind asks for the sharpest turn.
-        sine = left / m.where(ahead < 0.0, abs(left) + 1e-12, distance)
-        omega = 2.0 * pace * sine / self._settings.lookahead
+        ahead = m.maximum(ahead, 0.0)  # what lies behind asks for the sharpest turn
+        sine = left / m.sqrt(m.maximum(ahead * ahead + left * left, 1e-12))
+        omega = (2.0 * pace / self._settings.lookahead) * sine
         (low_v, low_omega), (high_v, high_omega) = self._lower, self._upper
         return m.clip(pace, low_v, high_v), m.clip(omega, low_omega, high_omega)
 
@@ -198,22 +200,29 @@ class Intention:
         if self._changes:
             self._change_mind(m, observation["time"], station)
         obstacles = rows_in_use(m, observation["obstacles"])
-        wanted = [self._routes[self._route]] if m is FLOATS else self._routes
-        placed = [self._place(m, route, known, world, obstacles) for route in wanted]
+        lookahead = self._settings.lookahead
+        if m is FLOATS or len(self._routes) == 1:
+            wanted = self._routes[self._route]
+            route, relative, axis, goal = self._place(m, wanted, known, world, obstacles)
+            aim = self._eased(m, goal)
+            ahead, left = route.towards(m, relative, world, axis, lookahead, aim)
+            return Outlook(m, self._pace, relative[1], *axis, goal, ahead, left, self._route)
+        placed = [self._place(m, route, known, world, obstacles) for route in self._routes]
         goal = self._chosen(m, [there[3] for there in placed])
+        aim = self._eased(m, goal)
+        seen = [
+            (relative[1], *axis, goal, *route.towards(m, relative, world, axis, lookahead, aim))
+            for route, relative, axis, _ in placed
+        ]
+        chosen = (self._chosen(m, list(values)) for values in zip(*seen, strict=True))
+        return Outlook(m, self._pace, *chosen, self._route)
+
+    def _eased(self, m: Elementwise, goal: Value) -> Value:
+        """Return the offset aimed for on the way to a goal, m."""
         self._evasion.aim(m, goal)
         aim = self._evasion.place()
         self._evasion.advance(m, self._pace * self._easing_share)
-        offset = self._chosen(m, [there[1][1] for there in placed])
-        heading = self._chosen(m, [there[1][2] for there in placed])
-        lookahead = self._settings.lookahead
-        targets = [
-            route.towards(m, relative, world, axis, lookahead, aim)
-            for route, relative, axis, _ in placed
-        ]
-        ahead = self._chosen(m, [target[0] for target in targets])
-        left = self._chosen(m, [target[1] for target in targets])
-        return Outlook(m, self._pace, offset, heading, goal, ahead, left, self._route)
+        return aim
 
     def _change_mind(self, m: Elementwise, time: Array, station: Value) -> None:
         (now,) = m.parts(time)

@@ -50,11 +50,15 @@ class Movement:
     def place(self) -> Value:
         """Return where it is, m."""
         s, (x, v, a, c3, c4, c5) = self._share, self._terms
+        if isinstance(s, float) and s == 0.0:  # it begins, for all of a batch
+            return x
         return x + s * (v + s * (a + s * (c3 + s * (c4 + s * c5))))
 
     def speed(self) -> Value:
         """Return how fast it moves, m for each duration."""
         s, (_, v, a, c3, c4, c5) = self._share, self._terms
+        if isinstance(s, float) and s == 0.0:
+            return v
         return v + s * (2.0 * a + s * (3.0 * c3 + s * (4.0 * c4 + s * (5.0 * c5))))
 
     def aim(self, m: Elementwise, goal: Value) -> None:
