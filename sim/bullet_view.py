@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +31,10 @@ CAMERA_DISTANCE, CAMERA_PITCH, CAMERA_SIDE, CAMERA_FIELD = 3.3, -24.0, 32.0, 50.
 """Chase camera: m, degrees, degrees to the left of straight behind the base, degrees."""
 TOP_DISTANCE, TOP_FIELD, TOP_AHEAD = 24.0, 10.0, 0.8
 """Top camera, far away so that it hardly distorts: m, degrees, m ahead of the pair."""
+
+COARSE_BEYOND, COARSENESS = 400, 0.8
+"""Pictures wider than so many pixels are rendered smaller, by this factor on either side, and
+enlarged: it saves a quarter of the time, and smooths edges."""
 
 
 @dataclass(frozen=True)
@@ -208,8 +212,16 @@ class Viewer:
 
     def look(self, camera: Camera) -> tuple[Image.Image, Image.Image]:
         """Return what a camera sees, and the mask of what hides things drawn on the floor."""
-        scenery = self._scenery
-        return photograph(self._client, camera, scenery.floor.paint(camera), scenery.flat)
+        scenery, size = self._scenery, (camera.width, camera.height)
+        if camera.width > COARSE_BEYOND:
+            width, height = (round(COARSENESS * pixels) for pixels in size)
+            camera = replace(camera, width=width, height=height)
+        behind = scenery.floor.paint(camera)
+        layers = photograph(self._client, camera, behind, scenery.flat)
+        if camera.width == size[0]:
+            return layers
+        picture, upright = (layer.resize(size, Image.Resampling.BILINEAR) for layer in layers)
+        return picture, upright
 
     def close(self) -> None:
         """Free the world. May be called twice."""
