@@ -8,17 +8,17 @@ from __future__ import annotations
 import signal
 import sys
 from contextlib import redirect_stdout
-from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from . import cli_humans, cli_studies
+from . import cli_humans, cli_list, cli_studies
 from .cli_output import (
     BAD_INPUT,
     FAILED,
     PASSED,
+    Json,
     complain,
     emit_json,
     emit_table,
@@ -27,8 +27,6 @@ from .cli_output import (
 )
 
 if TYPE_CHECKING:
-    from cowalk.sim.registry import Registry
-
     from .results import RunResult
     from .schema import Scenario
 
@@ -45,22 +43,6 @@ app = typer.Typer(
         "Exit codes: 0 all well, 1 an expectation failed, 2 bad input or a run that was aborted."
     ),
 )
-
-Json = Annotated[bool, typer.Option("--json", help="JSON alone on standard output.")]
-
-
-class Kind(StrEnum):
-    """What `list` can list."""
-
-    SCENARIOS = "scenarios"
-    HUMANS = "humans"
-    IMPERFECTIONS = "imperfections"
-    POPULATIONS = "populations"
-    AUTOMATIONS = "automations"
-    SMOOTHERS = "smoothers"
-    OBSERVERS = "observers"
-    PLANTS = "plants"
-    SENSORS = "sensors"
 
 
 @app.command(
@@ -181,66 +163,6 @@ def _report(result: RunResult, folder: Path, files: dict[str, str]) -> None:
         print(f"speed:    {two_digits(factor)} times real time ({wall:.2f} s)")
 
 
-@app.command(name="list", epilog="\b\nExamples:\n  cowalk list\n  cowalk list humans --json")
-def list_parts(
-    kind: Annotated[Kind | None, typer.Argument(help="One kind alone.")] = None,
-    as_json: Json = False,
-) -> int:
-    """List scenarios, humans, automations, sensors and everything else that has a name."""
-    from cowalk.agents.registry import AUTOMATIONS, HUMANS, IMPERFECTIONS
-    from cowalk.estimation.observers import OBSERVERS
-    from cowalk.estimation.smoothing import SMOOTHERS
-    from cowalk.sim.plants import PLANTS
-    from cowalk.sim.sensor_parameters import PRESETS
-
-    registries: dict[Kind, Registry[Any]] = {
-        Kind.HUMANS: HUMANS,
-        Kind.IMPERFECTIONS: IMPERFECTIONS,
-        Kind.AUTOMATIONS: AUTOMATIONS,
-        Kind.SMOOTHERS: SMOOTHERS,
-        Kind.OBSERVERS: OBSERVERS,
-        Kind.PLANTS: PLANTS,
-    }
-    found: dict[str, list[dict[str, str]]] = {}
-    for each in [kind] if kind else Kind:
-        if each in registries:
-            described = _parts(registries[each])
-        elif each is Kind.SENSORS:
-            described = {name: text for name, (text, _) in PRESETS.items()}
-        else:
-            described = _files(each)
-        found[each.value] = [{"name": n, "description": d} for n, d in described.items()]
-    if as_json:
-        emit_json(found)
-    else:
-        for name, entries in found.items():
-            emit_table(name, ("name", "what it is"), [tuple(entry.values()) for entry in entries])
-    return PASSED
-
-
-def _files(kind: Kind) -> dict[str, str]:
-    from .documents import parse
-    from .loading import library
-    from .population import population_library
-
-    known = library() if kind is Kind.SCENARIOS else population_library()
-    data = {name: parse(file.read_text(encoding="utf-8")).data for name, file in known.items()}
-    return {name: str(item.get("description", "")) for name, item in data.items()}
-
-
-def _parts(registry: Registry[Any]) -> dict[str, str]:
-    from cowalk.sim.errors import InputError
-
-    found = {}
-    for name in registry:
-        try:
-            text = registry.get(name).__doc__ or ""
-        except InputError as error:  # an installed add-on that does not work hides nothing else
-            text = str(error)
-        found[name] = text.strip().partition("\n")[0]
-    return found
-
-
 @app.command(
     epilog=(
         "\b\nExamples:\n"
@@ -279,7 +201,8 @@ def check(
     return code
 
 
-cli_humans.register(app, lambda as_json: list_parts(Kind.HUMANS, as_json))
+cli_list.register(app)
+cli_humans.register(app, lambda as_json: cli_list.list_parts(cli_list.Kind.HUMANS, as_json))
 cli_studies.register(app)
 
 

@@ -8,10 +8,15 @@ import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any
+from typing import Annotated, Any
+
+import typer
 
 PASSED, FAILED, BAD_INPUT = 0, 1, 2
 """Exit codes: all well, an expectation or verdict failed, bad input or an aborted run."""
+
+Json = Annotated[bool, typer.Option("--json", help="JSON alone on standard output.")]
+"""The option that every command with an answer has."""
 
 LINE_EVERY = 10.0
 """Seconds between lines about progress where there is no terminal."""

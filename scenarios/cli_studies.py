@@ -9,9 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
-from .cli_output import FAILED, PASSED, emit_json, emit_table, progress_bar
-
-Json = Annotated[bool, typer.Option("--json", help="JSON alone on standard output.")]
+from .cli_output import FAILED, PASSED, Json, emit_json, emit_table, progress_bar
 
 
 def register(app: typer.Typer) -> None:
