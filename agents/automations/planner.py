@@ -202,20 +202,19 @@ class TwistProblem(Problem):
         v_human, omega_human = human[..., None, None, 0], human[..., None, None, 1]
         asked, slowest, fastest = v_weight * v_human, self._lower[..., 0], self._upper[..., 0]
 
-        def solve(omega: Array) -> tuple[Array, Array]:
-            a, b, c = self._parabola(omega.reshape(*lanes, -1))
-            # A twist at v costs (a v - 2 b) v, beside what v does not change.
-            a = own * a.reshape(omega.shape) + v_weight
-            b = own * b.reshape(omega.shape) + asked
-            v = np.minimum(np.maximum(b / a, slowest), fastest)  # np.clip takes longer
-            turned = omega - omega_human
-            fixed = own * c.reshape(omega.shape) + omega_weight * (turned * turned)
-            return v, (a * v - 2.0 * b) * v + fixed
+        def solve(omega: Array) -> tuple[Array, Array, Array]:
+            """Return the best v, what is minimised there, and J."""
+            a, b, c = (x.reshape(omega.shape) for x in self._parabola(omega.reshape(*lanes, -1)))
+            free = (own * b + asked) / (own * a + v_weight)
+            v = np.minimum(np.maximum(free, slowest), fastest)  # np.clip takes longer
+            cost = (a * v - 2.0 * b) * v + c
+            slower, turned = v - v_human, omega - omega_human
+            away = v_weight * (slower * slower) + omega_weight * (turned * turned)
+            return v, own * cost + away, cost
 
         omega = minimise(lambda turn: solve(turn)[1], *self._turns, points=17)
-        v = solve(omega[..., None])[0][..., 0]
-        a, b, c = self._parabola(omega)
-        return np.stack((v, omega), axis=-1), (a * v - 2.0 * b) * v + c
+        v, _, cost = solve(omega[..., None])
+        return np.stack((v[..., 0], omega), axis=-1), cost[..., 0]
 
 
 PROBLEMS: dict[str, type[Problem]] = {"omega": TurnProblem, "both": TwistProblem}
