@@ -11,6 +11,7 @@ from collections import deque
 from dataclasses import dataclass
 from typing import Any
 
+from .arm import end_torque
 from .gait import Gait
 from .human_body import HumanBody
 from .parameters import Range, require_ranges
@@ -70,7 +71,8 @@ class Walker:
     Legs: a delayed spring and damper towards the place beside the base, plus the force that
     turns the walking body with the base (m omega x v), plus the reaction to the intended push,
     so that a steady push does not move the trunk, plus what the sway of the gait takes (m a).
-    Arms: J^T (intended force + posture spring).
+    Arms: J^T (intended force + posture spring), and soft tissue at the ends of a joint's range
+    (`cowalk.sim.arm.end_torque`).
 
     Parameters
     ----------
@@ -102,6 +104,9 @@ class Walker:
                 arm.upper.length,
                 arm.fore.length,
                 *rest,
+                *arm.free[0],
+                *arm.free[1],
+                arm.end_stiffness,
             )
             for index, (arm, rest) in enumerate(zip(body.arms, body.rest, strict=True))
         )
@@ -195,10 +200,25 @@ class Walker:
         pushed_x = share * (lean_cos * push_x + lean_sin * push_y)
         pushed_y = share * (lean_cos * push_y - lean_sin * push_x)
         forces = [cos * legs_x - sin * legs_y, sin * legs_x + cos * legs_y, 0.0]
-        for joint, shoulder_x, shoulder_y, upper, fore, rest_x, rest_y in self._arms:
-            shoulder, bent = human[joint], human[joint] + human[joint + 1]
+        for (
+            joint,
+            shoulder_x,
+            shoulder_y,
+            upper,
+            fore,
+            rest_x,
+            rest_y,
+            shoulder_low,
+            shoulder_high,
+            elbow_low,
+            elbow_high,
+            end_stiffness,
+        ) in self._arms:
+            shoulder, elbow = human[joint], human[joint + 1]
+            bent = shoulder + elbow
             shoulder_rate = human[joints + joint]
-            bent_rate = shoulder_rate + human[joints + joint + 1]
+            elbow_rate = human[joints + joint + 1]
+            bent_rate = shoulder_rate + elbow_rate
             arm_x, arm_y = upper * math.cos(shoulder), upper * math.sin(shoulder)
             fore_x, fore_y = fore * math.cos(bent), fore * math.sin(bent)
             hand_x, hand_y = shoulder_x + arm_x + fore_x, shoulder_y + arm_y + fore_y
@@ -210,7 +230,14 @@ class Walker:
                 pushed_y + k * (rest_y - hand_y) - b * (arm_x * shoulder_rate + fore_x * bent_rate)
             )
             at_elbow = fore_x * own_y - fore_y * own_x
-            forces.append(arm_x * own_y - arm_y * own_x + at_elbow)
+            at_shoulder = arm_x * own_y - arm_y * own_x + at_elbow
+            if not shoulder_low < shoulder < shoulder_high:
+                end = shoulder_high if shoulder > shoulder_low else shoulder_low
+                at_shoulder += end_torque(shoulder - end, shoulder_rate, end_stiffness)
+            if not elbow_low < elbow < elbow_high:
+                end = elbow_high if elbow > elbow_low else elbow_low
+                at_elbow += end_torque(elbow - end, elbow_rate, end_stiffness)
+            forces.append(at_shoulder)
             forces.append(at_elbow)
         forces[2] = legs_yaw
         return forces
