@@ -9,8 +9,9 @@ from __future__ import annotations
 import math
 from collections import deque
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
+from .anthropometry import BodyParameters, yaw_inertia
 from .arm import end_torque
 from .gait import Gait
 from .human_body import HumanBody
@@ -34,9 +35,11 @@ class WalkerParameters:
     Parameters
     ----------
     stiffness, damping : float
-        Of the legs that keep the trunk's place beside the base, N/m and N s/m.
+        Of the legs that keep the trunk's place beside the base, N/m and N s/m. They are those of
+        a person of 1.75 m and 70 kg; anybody else's go with their mass.
     yaw_stiffness, yaw_damping : float
-        Of the trunk's heading against the base's, N m/rad and N m s/rad.
+        Of the trunk's heading against the base's, N m/rad and N m s/rad; likewise, with the
+        moment of inertia about the vertical. So everybody moves alike (`legs_of`).
     delay : float
         Delay of both, s: about that of a long-latency stretch reflex.
     hand_stiffness, hand_damping : float
@@ -63,6 +66,29 @@ class WalkerParameters:
 
     def __post_init__(self) -> None:
         require_ranges(self, RANGES)
+
+
+class Legs(NamedTuple):
+    """What keeps the trunk's place and heading: N/m, N s/m, N m/rad, N m s/rad."""
+
+    stiffness: float
+    damping: float
+    yaw_stiffness: float
+    yaw_damping: float
+
+
+def legs_of(parameters: WalkerParameters, body: BodyParameters) -> Legs:
+    """Return the legs' gains of a body: with its mass and moment of inertia (inferred).
+
+    The delay is everybody's, so gains that did not shrink with the body would swing a child up.
+    """
+    usual = BodyParameters()
+    weight = body.mass / usual.mass
+    turn = yaw_inertia(body) / yaw_inertia(usual)
+    p = parameters
+    return Legs(
+        weight * p.stiffness, weight * p.damping, turn * p.yaw_stiffness, turn * p.yaw_damping
+    )
 
 
 class Walker:
@@ -96,7 +122,7 @@ class Walker:
         mass: float,
         step: float,
     ) -> None:
-        self._parameters = parameters
+        self._gains = legs_of(parameters, body.parameters)
         self._arms = tuple(
             (
                 3 + 2 * index,
@@ -160,7 +186,7 @@ class Walker:
         list of float
             N, N, N m, N m, ...
         """
-        p, joints = self._parameters, self._joints
+        p, joints = self._gains, self._joints
         base_x, base_y, base_yaw, base_vx, base_vy, base_rate = base
         vx, vy, rate = human[joints], human[joints + 1], human[joints + 2]
 
