@@ -24,6 +24,9 @@ FORE_SLOPE = 0.30
 STEEPEST = 0.90
 """Sine of the steepest slant of either link: steeper ones leave no lever seen from above
 (inferred)."""
+STOOP = 0.05
+"""How far a shoulder comes down, by knees and a lean, to a handle that is too low for a straight
+back, share of the height (inferred): so 2.2 m still carry at 0.95 m."""
 SHOULDER_FREE, ELBOW_FREE = (-0.80, 2.70), (-2.55, -0.35)
 """Where a left arm's joints move freely in the horizontal plane, rad: the upper arm's azimuth from
 straight ahead, outwards positive, and the angle from it to the forearm's. Inferred: adduction
@@ -63,6 +66,10 @@ def end_torque(beyond: float, rate: float, stiffness: float) -> float:
     return -stiffness * beyond * max(0.0, abs(beyond) + END_DAMPING * further)
 
 
+ROUNDING = 1e-9
+"""m."""
+
+
 class Link(NamedTuple):
     """A slanted link: what of it is seen from above, and how far its end lies below its start.
 
@@ -97,6 +104,13 @@ def slanted(segment: Segment, drop: float) -> Link:
     )
 
 
+def shoulder_height(body: BodyParameters, grip_height: float) -> float:
+    """Return how high a shoulder is with the grip at a height, m: upright if that reaches."""
+    upright = SHOULDER_HEIGHT * body.height
+    reach = STEEPEST * (segment(body, "upper_arm").length + forearm_with_hand(body).length)
+    return min(upright, max(grip_height + reach, upright - STOOP * body.height))
+
+
 def links(body: BodyParameters, grip_height: float) -> tuple[Link, Link]:
     """Return upper arm, and forearm with hand, so slanted that the grip is at a height (m).
 
@@ -108,13 +122,14 @@ def links(body: BodyParameters, grip_height: float) -> tuple[Link, Link]:
         If no slant reaches the height.
     """
     upper, fore = segment(body, "upper_arm"), forearm_with_hand(body)
-    drop = SHOULDER_HEIGHT * body.height - grip_height
+    shoulders = shoulder_height(body, grip_height)
+    drop = shoulders - grip_height
     steep = STEEPEST * upper.length
     upper_drop = min(max(drop - FORE_SLOPE * fore.length, -steep), steep)
-    if abs(drop - upper_drop) > STEEPEST * fore.length:
+    if abs(drop - upper_drop) > STEEPEST * fore.length + ROUNDING:
         raise InputError(
             f"a human of {body.height} m cannot hold a handle at {grip_height:.2f} m: their "
-            f"shoulder is at {SHOULDER_HEIGHT * body.height:.2f} m"
+            f"shoulder is at {shoulders:.2f} m"
         )
     return slanted(upper, upper_drop), slanted(fore, drop - upper_drop)
 
@@ -130,12 +145,15 @@ class Arm:
     upper, fore : Link
     side : float
         +1 left, -1 right: where the elbow points, and which way the joints' ranges lie.
+    height : float
+        Of the shoulder, m.
     """
 
     shoulder: tuple[float, float]
     upper: Link
     fore: Link
     side: float = 1.0
+    height: float = math.nan
 
     def angles(self, hand: tuple[float, float]) -> tuple[float, float]:
         """Return the shoulder and elbow angle (rad) that put the hand at a place in trunk axes.
@@ -222,7 +240,8 @@ def arm_of(body: BodyParameters, side: str, grip_height: float) -> Arm:
     sign = 1.0 if side == "left" else -1.0
     # The joint's centre lies a little outside and below the acromion's mark (inferred).
     shoulder = (0.0, sign * SHOULDER_BREADTH * body.height)
-    return Arm(shoulder, *links(body, grip_height), sign)
+    height = shoulder_height(body, grip_height)
+    return Arm(shoulder, *links(body, grip_height), sign, height)
 
 
 SHOULDER_BREADTH = 0.2 / 1.75

@@ -102,9 +102,9 @@ def refuse_unstable(bodies: Masses, gains: Gains, step: float, held: int) -> Non
     if (latest := _latest(linear, gains, held)) is not None:
         body = bodies.human.parameters
         raise InputError(
-            f"walker.delay = {gains.walker.delay:g} s: the legs of this body, {body.height:g} m and "
-            f"{body.mass:g} kg, would swing up; at most {latest:g} works here, or lower "
-            "walker.damping and walker.yaw_damping"
+            f"walker.delay = {gains.walker.delay:g} s: the legs of this body "
+            f"({body.height:g} m, {body.mass:g} kg) would swing up; at most {latest:g} works here, "
+            "or lower walker.damping and walker.yaw_damping"
         )
     rate = round(1.0 / step)
     enough = (n for n in FASTER if _stable(Linear(bodies, step / n), gains, held))
