@@ -168,7 +168,8 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         Raises
         ------
         InputError
-            If a body starts in touch with something solid.
+            If a body starts in touch with something solid, or what hangs on the sensor at rest
+            is beyond its range.
         SimulationError
             If the environment is closed.
         """
@@ -180,10 +181,9 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self.agents = list(SEATS)
         self._step_count = 0
         self._started = True
-        self._sensor.reset(sensor_rng)
-        self._state = self._plant.reset(self.world, plant_rng)
-        self._reading = self._sensor.measure(self._state.wrench_on_base, self._state.mount)
-        state = self._state
+        state = self._state = self._plant.reset(self.world, plant_rng)
+        self._sensor.reset(sensor_rng, state.wrench_on_base[-1], state.mount)
+        self._reading = self._sensor.measure(state.wrench_on_base, state.mount)
         clearance, touching = self._distances(self._time, *state.poses)
         if touching:
             plant = self._plant
