@@ -1,27 +1,27 @@
-"""What one act and one report of an agent must keep, and the made-up walk that tests it."""
+"""What the methods of an agent, one act and one report must keep."""
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
-from cowalk.sim.motion import Array, TwistBounds
-from cowalk.sim.observation import OBSTACLE_COLUMNS, OBSTACLE_ROWS
-from cowalk.sim.path import Path
+from cowalk.sim.motion import Array
 
-from .interfaces import Belief, Observation, Situation, Truth
+from .check_walk import SITUATION
+from .interfaces import Belief, Observation, Truth
 
 FORCE_PLAUSIBLE = 100.0
 """Largest force of one hand that is plausible, N; people communicate with up to 30 N."""
 TWIST_PLAUSIBLE = (3.0, 3.5)
 """Largest wish that is plausible beside a walking human, m/s and rad/s."""
 
-SITUATION = Situation(
-    Path(((0.0, 0.0), (30.0, 0.0))), 0.8, TwistBounds((0.0, -0.5), (1.2, 0.5)), 0.05
-)
-STEPS = 160
+FORCE_FAINT = 0.05
+"""Largest force that somebody who insists cannot mean, N; the just noticeable one is larger."""
+INSISTS = 0.1
+"""Share of a disagreement insisted on, m/s or rad/s, at which a force is to be felt."""
 _CURE = "return np.array([a, b]), one number for v, one for omega"
 _SCALARS = ("utility_loss", "target_utility", "interaction", "interaction_smoothed")
 
@@ -30,35 +30,42 @@ class Broken(Exception):
     """A fault after which the walk cannot go on."""
 
 
-def observations(motion: float, push: float) -> Iterator[Observation]:
-    """Yield a made-up walk past a puddle.
+def one_line(error: BaseException) -> str:
+    """Return kind and text of an error in one line."""
+    return f"{type(error).__name__}: {' '.join(str(error).split())}".rstrip(": ")
+
+
+def call_faults(part: Any, methods: dict[str, tuple[int, str]]) -> Iterator[str]:
+    """Yield which methods are missing, or cannot be called as the runner calls them.
 
     Parameters
     ----------
-    motion : float
-        Scales how far the base's twist swings about a steady walk, 1.
-    push : float
-        Scales the measured force, 1.
+    part : object
+    methods : dict of str to (int, str)
+        Number of arguments, and how the method is declared.
     """
-    pose = np.array([0.0, 0.2, 0.0])
-    for step in range(STEPS):
-        time = step * SITUATION.period
-        v, omega = 0.7 + 0.2 * motion * np.sin(2.0 * time), 0.25 * motion * np.cos(1.4 * time)
-        pose = pose + SITUATION.period * np.array([v, v * np.sin(pose[2]), omega])
-        puddle = np.zeros((OBSTACLE_ROWS, OBSTACLE_COLUMNS))
-        puddle[0, :4] = (1.0, 4.0 - pose[0], -0.6 - pose[1], 0.3)
-        force = push * np.array([1.5 * np.sin(time), 3.0 * np.cos(0.9 * time)])
-        wrist = 0.2 * push * np.sin(0.7 * time)
-        yield Observation(
-            twist=np.array([v, omega]),
-            force=np.tile(force, (12, 1)),
-            wrench=np.tile((*force, 0.0, 0.0, 0.0, wrist), (12, 1)),
-            force_valid=np.ones(12),
-            pose=pose.copy(),
-            pose_world=pose.copy(),  # the path is the world's x axis
-            obstacles=puddle,
-            time=np.array([time]),
-        )
+    for name, (count, how) in methods.items():
+        method = getattr(part, name, None)
+        if not callable(method):
+            yield f"there is no method {name!r}: add {how}"
+            continue
+        try:
+            signature = inspect.signature(method)
+        except (TypeError, ValueError):  # compiled: nothing is known of it
+            continue
+        try:
+            signature.bind(*[None] * count)
+        except TypeError:
+            yield f"{name}{signature} cannot be called with {count} arguments: declare {how}"
+
+
+def access_hint(error: Exception) -> str:
+    """Return how an observation is read, if an error comes from reading it otherwise."""
+    keys = ", ".join(Observation.__annotations__)
+    if isinstance(error, AttributeError) and isinstance(error.obj, dict):
+        key = error.name if error.name in Observation.__annotations__ else "twist"
+        return f'; an observation is a dict: observation["{key}"], of the keys {keys}'
+    return f"; an observation has the keys {keys}" if isinstance(error, KeyError) else ""
 
 
 def require_pair(what: str, value: Any, cure: str) -> None:
@@ -93,6 +100,21 @@ def force_faults(force: Array) -> Iterator[str]:
         yield (
             f"act returned more than {FORCE_PLAUSIBLE:g} N, no hand pushes like that: return N, "
             "and bound the force"
+        )
+
+
+def insistence(truth: Truth, twist: Array) -> float:
+    """Return how much of its disagreement with a twist a truth insists on, m/s or rad/s."""
+    return float(np.nan_to_num(truth.stubbornness * np.abs(truth.wish - twist)).max())
+
+
+def faint_faults(forces: Array, insisted: float) -> Iterator[str]:
+    """Yield whether the forces of a walk, N, are too faint for what the truth insisted on."""
+    peak = np.abs(forces).max()
+    if 0.0 < peak < FORCE_FAINT and insisted > INSISTS:
+        yield (
+            f"act returned at most {peak:.2g} N, too faint to be felt, while truth() insists on "
+            f"{insisted:.2g} m/s or rad/s: return N; is it in kN?"
         )
 
 

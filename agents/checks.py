@@ -17,17 +17,23 @@ from cowalk.sim.errors import InputError
 from cowalk.sim.motion import Array
 
 from .check_rules import (
-    SITUATION,
     Broken,
+    access_hint,
     belief_faults,
+    call_faults,
+    faint_faults,
     force_faults,
-    observations,
+    insistence,
+    one_line,
     require_pair,
     truth_faults,
     twist_faults,
 )
-from .interfaces import Observation
+from .check_walk import SITUATION, observations
+from .interfaces import Truth
 
+_ANSWERS = 1e-3
+"""Least difference of a force in N, or of a twist in m/s or rad/s, that counts as an answer."""
 _OUTPUT = {
     "human": "return the hand force on the base in N, np.array([fx, fy])",
     "automation": "return the twist in m/s and rad/s, np.array([v, omega])",
@@ -37,11 +43,12 @@ _OUTPUT = {
 def check_human(human: Any) -> None:
     """Check that an object keeps the protocol `Human`.
 
-    It is walked for 8 s beside a made-up base that turns and pushes. Checked are: shapes,
-    finite and plausible forces, truth within [0, 1], repetition after a reset with an equal
-    generator, global random state and observations left alone, and a force that answers the
-    base's motion, the measured force being the same, unless the class says
-    ``closed_loop = False``.
+    It is walked for 8 s beside a made-up base that sets off from rest, turns, pushes, halts,
+    loses samples, and passes obstacles. Checked are: signatures, shapes, finite and plausible
+    forces, truth within [0, 1], repetition after a reset with an equal generator, another
+    start of the generators it keeps after a reset with another one, global random state and
+    observations left alone, and a force that answers the base's motion by 1 mN or more, the
+    measured force being the same, unless the class says ``closed_loop = False``.
 
     Parameters
     ----------
@@ -98,29 +105,28 @@ def _problems(part: Any, seat: str, report: str, outputs: Faults, reports: Fault
     if inspect.isclass(part):
         try:
             part = part()
-        except Exception as error:
-            return [f"it cannot be built without arguments ({error}): check an instance of it"]
+        except (Exception, SystemExit) as error:
+            what = one_line(error)
+            return [f"it cannot be built without arguments ({what}): check an instance of it"]
     methods = {
-        "reset": "reset(self, rng, situation)",
-        "act": f"act(self, observation), to {_OUTPUT[seat]}",
-        report: f"{report}(self), to return a {report.capitalize()}",
+        "reset": (2, "reset(self, rng, situation)"),
+        "act": (1, f"act(self, observation), to {_OUTPUT[seat]}"),
+        report: (0, f"{report}(self), to return a {report.capitalize()}"),
     }
-    problems = [
-        f"there is no method {name!r}: add {how}"
-        for name, how in methods.items()
-        if not callable(getattr(part, name, None))
-    ]
+    problems = list(call_faults(part, methods))
     if problems:
         return problems
     states = _global_states()
     found: dict[str, None] = {}  # each fault once, in order
+    # A human must answer how the base moves; an automation may answer the push alone.
+    calm = (0.3, 1.0 if seat == "human" else 0.3)
     try:
-        first, again = (
-            _walk(part, seat, report, (1.0, 1.0), outputs, reports, found) for _ in range(2)
+        # The first walk once more at the end: a class may count its resets.
+        first, again, calmer, last = (
+            _walk(part, report, sizes, outputs, reports, _OUTPUT[seat], found)
+            for sizes in ((1.0, 1.0), (1.0, 1.0), calm, (1.0, 1.0))
         )
-        # A human must answer how the base moves; an automation may answer the push alone.
-        other = (0.3, 1.0 if seat == "human" else 0.3)
-        calmer = _walk(part, seat, report, other, outputs, reports, found)
+        found |= dict.fromkeys(_generator_faults(part))
     except Broken as error:
         return [*found, str(error)]
     problems = list(found)
@@ -128,26 +134,56 @@ def _problems(part: Any, seat: str, report: str, outputs: Faults, reports: Fault
         problems.append(
             "it touches the global random state: draw from the rng that reset is given alone"
         )
-    different = np.flatnonzero((first != again).any(axis=-1))
+    # NaN, named already, is not equal to itself.
+    repeats = [
+        np.isclose(first, other, rtol=0.0, atol=0.0, equal_nan=True) for other in (again, last)
+    ]
+    different = np.flatnonzero(~np.all(repeats, axis=(0, -1)))
     if different.size:
         problems.append(
             f"two walks after resets with equal generators differ from step {different[0]} on: set "
             "all state in reset, and draw only from the rng that reset is given"
         )
     elif not problems:
-        problems += _loop_faults(part, seat, bool((first != calmer).any()))
+        problems += _loop_faults(part, seat, float(np.abs(first - calmer).max()))
     return problems
 
 
-def _loop_faults(part: Any, seat: str, answers: bool) -> Iterator[str]:
+def _generator_faults(part: Any) -> Iterator[str]:
+    """Yield which generators that a part keeps start alike, whatever reset is given."""
+    drawn = _generators(part)  # after a walk that began with seed 7
+    starts = []
+    for seed in (7, 8):
+        part.reset(np.random.default_rng(seed), SITUATION)
+        starts.append(_generators(part))
+    for name, start in starts[0].items():
+        if start == starts[1].get(name) and start != drawn.get(name):
+            yield (
+                f"the generator self.{name} starts alike whatever rng reset is given, so that "
+                f"every seed gives the same person: self.{name} = rng in reset"
+            )
+
+
+def _generators(part: Any) -> dict[str, bytes]:
+    """Return the states of the generators of random numbers that a part keeps, by attribute."""
+    found = {}
+    for name, value in getattr(part, "__dict__", {}).items():
+        if isinstance(value, np.random.Generator):
+            found[name] = pickle.dumps(value.bit_generator.state)
+        elif isinstance(value, random.Random):
+            found[name] = pickle.dumps(value.getstate())
+    return found
+
+
+def _loop_faults(part: Any, seat: str, difference: float) -> Iterator[str]:
     output = "force" if seat == "human" else "twist"
     felt, motion = ("", "'s twist or pose") if seat == "human" else (" and is pushed", "")
-    if getattr(part, "closed_loop", True) and not answers:
+    if getattr(part, "closed_loop", True) and difference < _ANSWERS:
         yield (
             f"its {output} is the same however the base moves{felt}: use the observation"
             f"{motion}, or say closed_loop = False in the class"
         )
-    elif not getattr(part, "closed_loop", True) and answers:
+    elif not getattr(part, "closed_loop", True) and difference > 0.0:
         yield f"it says closed_loop = False, yet its {output} answers the base: leave that out"
 
 
@@ -158,11 +194,11 @@ def _global_states() -> bytes:
 
 def _walk(
     part: Any,
-    seat: str,
     report: str,
     sizes: tuple[float, float],
     outputs: Faults,
     reports: Faults,
+    cure: str,
     found: dict[str, None],
 ) -> Array:
     """Step a part through one walk; return outputs, and note every fault.
@@ -171,6 +207,7 @@ def _walk(
     """
     step, verb = 0, "reset"
     kept: list[tuple[Array, Array]] = []
+    insisted = 0.0
     try:
         part.reset(np.random.default_rng(7), SITUATION)
         for seen in observations(*sizes):
@@ -180,20 +217,23 @@ def _walk(
             for key, value in before.items():
                 if not np.array_equal(seen[key], value):  # type: ignore[literal-required]
                     found[f"act changes observation[{key!r}]: work on a copy"] = None
-            require_pair("act returned", output, _OUTPUT[seat])
+            require_pair("act returned", output, cure)
             found |= dict.fromkeys(outputs(output))
             kept.append((output, output.copy()))
             verb = report
-            found |= dict.fromkeys(reports(getattr(part, report)()))
+            said = getattr(part, report)()
+            found |= dict.fromkeys(reports(said))
+            if isinstance(said, Truth):
+                insisted = max(insisted, insistence(said, before["twist"]))
             step += 1
     except Broken:
         raise
-    except Exception as error:
-        keys = f"; an observation has the keys {', '.join(Observation.__annotations__)}"
-        hint = keys if isinstance(error, KeyError) else ""
-        raise Broken(
-            f"{verb} fails at step {step}: {type(error).__name__}: {error}{hint}"
-        ) from None
+    except (Exception, SystemExit) as error:
+        hint = access_hint(error) if isinstance(error, Exception) else ""
+        raise Broken(f"{verb} fails at step {step}: {one_line(error)}{hint}") from None
     if any((now != then).any() for now, then in kept if np.isfinite(then).all()):
         found["act changes an array that it returned before: return a fresh one"] = None
-    return np.array([then for _, then in kept])
+    walked = np.array([then for _, then in kept])
+    if report == "truth":
+        found |= dict.fromkeys(faint_faults(walked, insisted))
+    return walked

@@ -6,13 +6,13 @@ import numpy as np
 
 from cowalk.agents import HUMANS, IMPERFECTIONS
 
-from .humans import BATCH, ROUNDS, STEPS, reference, scene, walking
+from .humans import BATCH, BATCH_STEPS, ROUNDS, STEPS, reference, scenes, walking
 from .timing import best
 
 
 def measure() -> list[tuple[str, float, str]]:
     """Return rows of (what, value, unit)."""
-    one, many = scene(), scene(BATCH)
+    one, many = scenes(), scenes(BATCH, BATCH_STEPS)
     wrappers = {name: IMPERFECTIONS.get(name) for name in IMPERFECTIONS}
     build = HUMANS.get("steady")
     makers = {"": build} | {
@@ -23,8 +23,8 @@ def measure() -> list[tuple[str, float, str]]:
     for _ in range(ROUNDS):
         subtraction = min(subtraction, best(reference, 1) / STEPS)
         for name, make in makers.items():
-            alone[name] = min(alone[name], best(walking(make(), one, STEPS), 1) / STEPS)
-            cost = best(walking(make(), many, 3), 1) / (3 * BATCH)
+            alone[name] = min(alone[name], best(walking(make(), one), 1) / STEPS)
+            cost = best(walking(make(), many), 1) / (BATCH_STEPS * BATCH)
             batched[name] = min(batched[name], cost)
     rows = []
     for name in wrappers:

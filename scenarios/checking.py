@@ -73,6 +73,7 @@ def check(document: Document) -> tuple[Scenario | None, list[Problem]]:
         except InputError as error:
             problems.append(Problem(("sensor",), str(error)))
         problems += _too_late(scenario)
+        problems += _never_come(scenario)
     return scenario, problems
 
 
@@ -192,6 +193,26 @@ def _too_late(scenario: Scenario) -> list[Problem]:
         for path, delay in delays
         if isinstance(delay, int | float) and delay >= scenario.duration
     ]
+
+
+def _never_come(scenario: Scenario) -> list[Problem]:
+    """Return which changes of mind come after the run's end, or ask for more than its bounds."""
+    duration, length = scenario.duration, scenario.world.path.length
+    fastest = scenario.bounds.upper[0]
+    after, behind = np.nextafter((duration, length), 0.0)  # to come then is to come never
+    limits = {
+        "at_time": (after, f"s: must come before the run is over, duration = {duration:g} s"),
+        "at_station": (behind, f"m: must lie before the end of world.path, {length:g} m"),
+        "pace": (fastest, f"m/s: must not be above the upper bound of v, {fastest:g} m/s"),
+    }
+    found: list[Problem] = []
+    for index, change in enumerate(scenario.human.intention.changes):
+        for key, (most, what) in limits.items():
+            value = getattr(change, key)
+            if value is not None and value > most:
+                path: KeyPath = ("human", "intention", "changes", index, key)
+                found.append(Problem(path, f"{dotted(path)} = {value:g} {what}"))
+    return found
 
 
 def _formulas(data: dict[str, Any], scenario: Scenario | None) -> list[Problem]:

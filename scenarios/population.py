@@ -19,7 +19,7 @@ from cowalk.sim.plants import PLANTS
 from cowalk.sim.registry import did_you_mean
 
 from .distribution import KEY, Distribution
-from .documents import Document, KeyPath, Problem
+from .documents import Document, KeyPath, Problem, dotted
 from .humans import attempt_human, unsuited
 from .loading import read_document
 from .overrides import expand_names
@@ -211,6 +211,12 @@ def _group_problems(section: dict[str, Any]) -> list[Problem]:
     laws: dict[KeyPath, Distribution] = {}
     problems: list[Problem] = []
     for path, node in _nodes(section, ()):
+        if path[-1:] in ((), ("name",)):
+            what = (
+                "a name is no number to draw; for several models, give each a group with a weight"
+            )
+            problems.append(Problem(path, f"{dotted(('human', *path))}: {what}"))
+            continue
         law, faults = validate(Distribution, node, ("human", *path))
         problems += [Problem(fault.path[1:], fault.message) for fault in faults]
         if law is not None:

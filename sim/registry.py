@@ -21,9 +21,12 @@ def nearest(name: str, known: list[str]) -> str | None:
     return next(iter(difflib.get_close_matches(name, known, n=1)), None)
 
 
-def did_you_mean(name: str, known: list[str]) -> str:
-    """Return what would be right instead of a name, to stand after a semicolon or a colon."""
-    near, names = nearest(name, known), ", ".join(known)
+def did_you_mean(name: str, known: list[str], suited: list[str] | None = None) -> str:
+    """Return what would be right instead of a name, to stand after a semicolon or a colon.
+
+    Only a ``suited`` name is proposed, if they are given; all known ones are listed.
+    """
+    near, names = nearest(name, known if suited is None else suited), ", ".join(known)
     return f"did you mean {near!r}? Known: {names}" if near else f"known: {names}"
 
 

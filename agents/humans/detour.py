@@ -22,10 +22,10 @@ def rows_in_use(m: Elementwise, obstacles: Array) -> list[Value]:
         return [row[:4] for row in obstacles.tolist() if row[0]]
     rows = []
     for i in range(obstacles.shape[-2]):
-        (present,) = m.parts(obstacles[..., i, :1])
-        if not m.any(present):
+        if not m.any(obstacles[..., i, 0]):
             break  # rows in use come first
-        rows.append([present, *m.parts(obstacles[..., i, 1:4])])
+        # Together before each on its own: they lie far apart in a batch.
+        rows.append(m.parts(obstacles[..., i, :4].copy()))
     return rows
 
 
@@ -54,24 +54,23 @@ def detour(
     """
     left, right = extent
     behind = max(left, right)
+    # Both bodies with their margin reach half of this about a middle beside the base's centre.
+    breadth, shift = 0.5 * (left + right) + margin, offset + 0.5 * (right - left)
     cos, sin = axis
     aim, nearest = 0.0, math.inf
     for present, x, y, radius in obstacles:
         along = cos * x - sin * y
-        across = sin * x + cos * y + offset
-        reach = radius + margin
-        pass_left, pass_right = across + (reach + right), across - (reach + left)
+        across = sin * x + cos * y + shift
+        half = radius + breadth
         in_the_way = (
-            (present > 0.0)
+            (abs(across) < half)
+            & (present > 0.0)
             & (along + radius > -behind)
             & (along - radius < anticipation)
-            & (pass_left > 0.0)
-            & (pass_right < 0.0)
         )
         if len(obstacles) > 1:
             in_the_way = in_the_way & (along < nearest)
             nearest = m.where(in_the_way, along, nearest)
         # Both detours are open: left is not the longer one.
-        shorter = m.where(pass_left + pass_right <= 0.0, pass_left, pass_right)
-        aim = m.where(in_the_way, shorter, aim)
+        aim = m.where(in_the_way, across + m.where(across <= 0.0, half, -half), aim)
     return aim

@@ -11,7 +11,8 @@ from cowalk.agents.interfaces import Observation, Situation, Truth
 from cowalk.sim.motion import Array
 
 from .demand import Pair, prescribed_truth, require, require_positive
-from .recording import Columns, Units, read_recording, resample
+from .recording import Columns, read_recording, resample
+from .recording_units import Units
 
 
 @dataclass(kw_only=True)
@@ -28,6 +29,9 @@ class RecordedHuman:
     columns : Columns
         Which of its columns hold time and force.
     units : Units
+    gaps : {"refuse", "hold"}
+        What becomes of a file in which rows are missing: it is refused, or the last force is
+        held until the next row, see `read_recording`.
     resample : {"mean", "linear", "hold"}
         How samples become one force a control period, see `resample`.
     at_end : {"loop", "stop"}
@@ -53,6 +57,7 @@ class RecordedHuman:
     file: str
     columns: Columns = field(default_factory=Columns)
     units: Units = field(default_factory=Units)
+    gaps: Literal["refuse", "hold"] = "refuse"
     resample: Literal["mean", "linear", "hold"] = "mean"
     at_end: Literal["loop", "stop"] = "loop"
     start: float = 0.0
@@ -62,9 +67,10 @@ class RecordedHuman:
 
     def __post_init__(self) -> None:
         require_positive(self, "force_max", "gain")
+        require(self, "gaps", self.gaps in ("refuse", "hold"), "must be refuse or hold")
         require(self, "start", self.start >= 0.0, "must not be negative")
         require(self, "scale", bool(np.isfinite(self.scale)), "must be finite")
-        self._time, self._force = read_recording(self.file, self.columns, self.units)
+        self._time, self._force = read_recording(self.file, self.columns, self.units, self.gaps)
 
     def reset(self, rng: np.random.Generator, situation: Situation) -> None:
         """See `Human.reset`."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -14,13 +13,11 @@ from cowalk.sim.errors import InputError
 from cowalk.sim.motion import Array
 from cowalk.sim.registry import did_you_mean
 
-TIME_UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
-"""Known units of time, in s."""
-FORCE_UNITS = {"N": 1.0, "mN": 1e-3, "kN": 1e3, "lbf": 4.4482216152605, "kgf": 9.80665}
-"""Known units of force, in N."""
+from .recording_files import at, first_line, read_table
+from .recording_units import FORCE_UNITS, TIME_UNITS, Units, suits, unit_of
 
-_SUFFIX = re.compile(r"[\s_\[(/]([A-Za-z]+)[\])]?$")
-"""A unit at the end of a column's name: ``fx_mn``, ``t [ms]``, ``Fx (kN)``."""
+_GAP = (5.0, 0.05)
+"""Step of time at which rows are missing: as a multiple of the usual one, and in s."""
 _STRONGEST = 500.0
 """Force that nobody exerts by hand, N."""
 _STEPS = (1e-5, 0.5)
@@ -42,35 +39,9 @@ class Columns:
     fy: str = "fy_n"
 
 
-@dataclass(frozen=True, kw_only=True)
-class Units:
-    """Units of a recording's columns.
-
-    Parameters
-    ----------
-    time : {"s", "ms", "us", "ns"}, optional
-        Unless given, what the file says: a Parquet field's metadata, or the end of the
-        column's name (``t_ms``, ``t [ms]``); s where it says nothing.
-    force : {"N", "mN", "kN", "lbf", "kgf"}, optional
-        Likewise (``fx_mn``, ``Fx [mN]``); N where the file says nothing.
-
-    Raises
-    ------
-    InputError
-        If a unit is not known.
-    """
-
-    time: Literal["s", "ms", "us", "ns"] | None = None
-    force: Literal["N", "mN", "kN", "lbf", "kgf"] | None = None
-
-    def __post_init__(self) -> None:
-        for name, known in (("time", TIME_UNITS), ("force", FORCE_UNITS)):
-            unit = getattr(self, name)
-            if unit is not None and unit not in known:
-                raise InputError(f"units.{name} = {unit!r}: {did_you_mean(unit, list(known))}")
-
-
-def read_recording(file: str, columns: Columns, units: Units) -> tuple[Array, Array]:
+def read_recording(
+    file: str, columns: Columns, units: Units, gaps: Literal["refuse", "hold"] = "refuse"
+) -> tuple[Array, Array]:
     """Return time and force of a recording, checked.
 
     Parameters
@@ -80,6 +51,9 @@ def read_recording(file: str, columns: Columns, units: Units) -> tuple[Array, Ar
     columns : Columns
     units : Units
         What the file itself says of a unit must agree.
+    gaps : {"refuse", "hold"}
+        Whether rows may be missing, five usual steps and 50 ms or more; the last force then
+        lasts until the next row.
 
     Returns
     -------
@@ -92,33 +66,29 @@ def read_recording(file: str, columns: Columns, units: Units) -> tuple[Array, Ar
     ------
     InputError
         If the file cannot be read, a column is missing, holds no numbers or stands in another
-        unit, a value is missing or not finite, or time does not rise: file, column and row.
+        unit, a value is missing or not finite, time does not rise, or rows are missing: file,
+        column and row.
     """
     path = Path(file).expanduser()
-    reader = _READERS.get(path.suffix)
-    if reader is None:
-        raise InputError(f"{_at(path)}: ends in none of {', '.join(_READERS)}")
-    if not path.is_file():
-        raise InputError(f"{_at(path)}: there is no such file")
-    table, stated = reader(path)
+    table, stated = read_table(path)
     first_row = 2 if path.suffix == ".csv" else 0  # a CSV file's line, the header being line 1
     names = {"time": columns.time, "fx": columns.fx, "fy": columns.fy}
     values, used = {}, {}
     for role, name in names.items():
-        if name not in table:
-            raise InputError(f"{_at(path)}: no column {name!r}; {did_you_mean(name, list(table))}")
-        if table[name] is None:
-            raise InputError(f"{_at(path)}: more than one column is called {name!r}; rename one")
-        used[role] = _unit(path, "time" if role == "time" else "force", name, units, stated)
-        values[role] = _numbers(path, name, table[name], first_row)
+        quantity = "time" if role == "time" else "force"
+        suited = [other for other in table if suits(path, quantity, other, units, stated)]
+        column = _column(path, name, table, suited)
+        used[role] = unit_of(path, quantity, name, units, stated)
+        values[role] = _numbers(path, name, column, first_row)
     lengths = {names[role]: len(column) for role, column in values.items()}
     if len(set(lengths.values())) > 1:
-        raise InputError(f"{_at(path)}: columns differ in length: {lengths}")
+        raise InputError(f"{at(path)}: columns differ in length: {lengths}")
     if len(values["time"]) < 2:
-        raise InputError(f"{_at(path)}: holds {len(values['time'])} rows; at least 2 are needed")
+        raise InputError(f"{at(path)}: holds {len(values['time'])} rows; at least 2 are needed")
     time = values["time"] * TIME_UNITS[used["time"]]
     force = np.stack([values[role] * FORCE_UNITS[used[role]] for role in ("fx", "fy")], axis=-1)
     _check_plausible(path, names, used, time, force, first_row)
+    time, force = _without_gaps(path, time, force, first_row, gaps)
     return time - time[0], force
 
 
@@ -156,87 +126,40 @@ def resample(
     return np.asarray(np.diff(area(ends), axis=0) / np.diff(ends)[:, None])
 
 
-def _at(path: Path) -> str:
-    return f"file = {str(path)!r}"
+def _column(path: Path, name: str, table: dict[str, Any], suited: list[str]) -> Any:
+    """Return a column; what is missing is told with what may have been meant."""
+    if name not in table:
+        cure = did_you_mean(name, list(table), suited)
+        if all(known.isdecimal() for known in table):
+            cure = 'the array has no names, say columns: {time: "0", fx: "1", fy: "2"}'
+        raise InputError(f"{at(path)}: no column {name!r}; {cure}")
+    if table[name] is None:
+        raise InputError(f"{at(path)}: more than one column is called {name!r}; rename one")
+    return table[name]
 
 
-def _unit(path: Path, quantity: str, name: str, units: Units, stated: dict[str, str]) -> str:
-    """Return the unit of a column: what the scenario says, the file, or s and N."""
-    known = TIME_UNITS if quantity == "time" else FORCE_UNITS
-    wanted: str | None = getattr(units, quantity)
-    found = stated.get(name)
-    if found is None and (end := _SUFFIX.search(name)):
-        found = {unit.lower(): unit for unit in known}.get(end[1].lower())
-    if found is None:
-        return wanted or next(iter(known))
-    if wanted not in (None, found):
+def _without_gaps(
+    path: Path, time: Array, force: Array, first: int, gaps: Literal["refuse", "hold"]
+) -> tuple[Array, Array]:
+    """Return a recording whose missing rows hold the last force, or refuse it."""
+    steps = np.diff(time)
+    usual = np.median(steps)
+    before = np.flatnonzero((steps > _GAP[0] * usual) & (steps > _GAP[1]))
+    if not len(before):
+        return time, force
+    if gaps == "refuse":
+        row = before[np.argmax(steps[before])]
         raise InputError(
-            f"{_at(path)}: column {name!r} is in {found!r}, the scenario says {wanted!r}; leave "
-            f"units.{quantity} out, or map another column"
+            f"{at(path)}: nothing for {steps[row]:.3g} s from {time[row]:g} s on (row "
+            f"{row + first}, {len(before)} such gaps, rows are {usual:g} s apart); cut the "
+            "recording there, or say gaps: hold to keep the last force"
         )
-    if found not in known:
-        raise InputError(f"{_at(path)}: column {name!r} is in {found!r}; known: {', '.join(known)}")
-    return found
-
-
-def _columns(table: Any) -> dict[str, Any]:
-    """Return an Arrow table's columns by name; None for a name that several have."""
-    names = table.column_names
-    return {
-        name: None if names.count(name) > 1 else table.column(i) for i, name in enumerate(names)
-    }
-
-
-def _read_csv(path: Path) -> tuple[dict[str, Any], dict[str, str]]:
-    from pyarrow import ArrowInvalid, csv
-
-    try:
-        table = csv.read_csv(path)
-    except ArrowInvalid as error:
-        raise InputError(f"{_at(path)}: cannot be read as CSV: {_first_line(error)}") from error
-    return _columns(table), {}
-
-
-def _read_parquet(path: Path) -> tuple[dict[str, Any], dict[str, str]]:
-    from pyarrow import ArrowInvalid, parquet
-
-    try:
-        table = parquet.read_table(path)
-    except ArrowInvalid as error:
-        raise InputError(f"{_at(path)}: cannot be read as Parquet: {_first_line(error)}") from error
-    units = {
-        field.name: field.metadata[b"unit"].decode()
-        for field in table.schema
-        if field.metadata and b"unit" in field.metadata
-    }
-    return _columns(table), units
-
-
-def _read_numpy(path: Path) -> tuple[dict[str, Any], dict[str, str]]:
-    try:
-        data = np.load(path, allow_pickle=False)
-    except (ValueError, OSError) as error:
-        raise InputError(f"{_at(path)}: cannot be read as NumPy: {_first_line(error)}") from error
-    if isinstance(data, np.lib.npyio.NpzFile):
-        with data:
-            return dict(data), {}
-    if data.dtype.names:
-        return {name: data[name] for name in data.dtype.names}, {}
-    if data.ndim != 2:
-        raise InputError(f"{_at(path)}: an array of shape {data.shape}; (rows, columns) is needed")
-    return {str(i): column for i, column in enumerate(data.T)}, {}
-
-
-_READERS = {
-    ".csv": _read_csv,
-    ".parquet": _read_parquet,
-    ".npy": _read_numpy,
-    ".npz": _read_numpy,
-}
-
-
-def _first_line(error: Exception) -> str:
-    return str(error).partition("\n")[0]
+    # The last force, up to one usual step before the next row.
+    after = before + 1
+    return (
+        np.insert(time, after, time[after] - usual),
+        np.insert(force, after, force[before], axis=0),
+    )
 
 
 def _numbers(path: Path, name: str, column: Any, first_row: int) -> Array:
@@ -245,14 +168,14 @@ def _numbers(path: Path, name: str, column: Any, first_row: int) -> Array:
         values = np.asarray(column).astype(float)
     except (ValueError, TypeError) as error:
         raise InputError(
-            f"{_at(path)}: column {name!r} does not hold numbers: {_first_line(error)}"
+            f"{at(path)}: column {name!r} does not hold numbers: {first_line(error)}"
         ) from error
     if values.ndim != 1:
-        raise InputError(f"{_at(path)}: column {name!r} has shape {values.shape}; one value a row")
+        raise InputError(f"{at(path)}: column {name!r} has shape {values.shape}; one value a row")
     wrong = np.flatnonzero(~np.isfinite(values))
     if len(wrong):
         raise InputError(
-            f"{_at(path)}: column {name!r} has no finite number in row {wrong[0] + first_row} "
+            f"{at(path)}: column {name!r} has no finite number in row {wrong[0] + first_row} "
             f"({len(wrong)} such rows); fill or cut the gap"
         )
     return values
@@ -266,20 +189,20 @@ def _check_plausible(
     if len(falling):
         row = falling[0] + 1
         raise InputError(
-            f"{_at(path)}: column {names['time']!r} does not rise in row {row + first}: "
+            f"{at(path)}: column {names['time']!r} does not rise in row {row + first}: "
             f"{time[row]:g} s after {time[row - 1]:g} s"
         )
     step = np.median(steps)
     if not _STEPS[0] <= step <= _STEPS[1]:
         raise InputError(
-            f"{_at(path)}: rows are {step:g} s apart with units.time = {units['time']!r}; is the "
+            f"{at(path)}: rows are {step:g} s apart with units.time = {units['time']!r}; is the "
             f"column {names['time']!r} in another unit?"
         )
     row, dimension = np.unravel_index(np.argmax(np.abs(force)), force.shape)
     role = "fx" if dimension == 0 else "fy"
     if abs(force[row, dimension]) > _STRONGEST:
         raise InputError(
-            f"{_at(path)}: column {names[role]!r} reads {force[row, dimension]:g} N in row "
+            f"{at(path)}: column {names[role]!r} reads {force[row, dimension]:g} N in row "
             f"{row + first} with units.force = {units[role]!r}, more than anybody "
             "pushes; is it in another unit?"
         )

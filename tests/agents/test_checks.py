@@ -11,6 +11,7 @@ from cowalk.agents import (
     check_automation,
     check_human,
 )
+from cowalk.agents.check_walk import observations
 from cowalk.agents.checks import automation_problems, human_problems
 from cowalk.sim.errors import InputError
 
@@ -157,6 +158,80 @@ class OneShare(Good):
         return Truth(np.array([0.8, 0.0]), np.array([0.5]))
 
 
+class Whispers(Good):
+    def act(self, observation):
+        self.twist = observation["twist"]
+        return np.array([0.0, 2.0 + 1e-12 * self.twist[1]])
+
+
+class DividesAtRest(Good):
+    def act(self, observation):
+        super().act(observation)
+        return np.array([0.0, 0.1 / float(self.twist[0])])
+
+
+class NeedsObstacles(Good):
+    def act(self, observation):
+        present = observation["obstacles"][:, 0] == 1.0
+        return super().act(observation) * observation["obstacles"][present, 1].min() / 10.0
+
+
+class AveragesValidSamples(Good):
+    def act(self, observation):
+        count = int(observation["force_valid"].sum())
+        return super().act(observation) + 0.01 * observation["force"].sum() * (1 / count)
+
+
+class CountsResets(Good):
+    resets = 0
+
+    def reset(self, rng, situation):
+        super().reset(rng, situation)
+        self.resets += 1
+
+    def act(self, observation):
+        return super().act(observation) * (1.0 if self.resets < 4 else 2.0)
+
+
+class Kilonewtons(Good):
+    def act(self, observation):
+        return 1e-3 * super().act(observation)
+
+
+class AlwaysTheSame(Good):
+    def reset(self, rng, situation):
+        self.rng = np.random.default_rng(3)
+
+
+class ResetAlone(Good):
+    def reset(self): ...
+
+
+class ActAlone(Good):
+    def act(self):
+        return np.zeros(2)
+
+
+class ByAttribute(Good):
+    def act(self, observation):
+        return -observation.twist
+
+
+class TwoLines(Good):
+    def act(self, observation):
+        raise ValueError("one thing\nand another")
+
+
+class Leaves(Good):
+    def act(self, observation):
+        raise SystemExit(1)
+
+
+class LeavesAtOnce(Good):
+    def __init__(self):
+        raise SystemExit("no\nlicence")
+
+
 PAIR = r"return np\.array\(\[a, b\]\), one number for v, one for omega"
 FORCE = r"return the hand force on the base in N, np\.array\(\[fx, fy\]\)"
 FAULTS = {
@@ -184,6 +259,19 @@ FAULTS = {
     Scribbles: r"act changes observation\['twist'\]",
     OneArray: "return a fresh one",
     NeedsArguments: "check an instance of it",
+    Whispers: "the same however the base moves",
+    DividesAtRest: "act fails at step 0: ZeroDivisionError",
+    NeedsObstacles: "act fails at step 0: ValueError: zero-size",
+    AveragesValidSamples: "act fails at step 60: ZeroDivisionError",
+    CountsResets: "two walks after resets with equal generators differ",
+    Kilonewtons: r"at most 0.0012 N, too faint .* return N; is it in kN\?",
+    AlwaysTheSame: "the generator self.rng starts alike whatever rng reset is given",
+    ResetAlone: r"declare reset\(self, rng, situation\)",
+    ActAlone: r"declare act\(self, observation\), to return the hand force",
+    ByAttribute: r'an observation is a dict: observation\["twist"\]',
+    TwoLines: "act fails at step 0: ValueError: one thing and another$",
+    Leaves: "act fails at step 0: SystemExit: 1$",
+    LeavesAtOnce: r"cannot be built without arguments \(SystemExit: no licence\)",
 }
 
 
@@ -194,6 +282,29 @@ def test_a_fault_is_named_with_its_cure(faulty):
         check_human(faulty)
     np.random.set_state(state)  # noqa: NPY002
     assert "\n" not in " ".join(human_problems(faulty))
+
+
+def test_a_force_that_is_not_finite_is_one_fault():
+    assert len(human_problems(DividesByZero)) == 1
+
+
+def test_a_kept_generator_may_start_alike_if_nothing_is_drawn_from_it():
+    class KeepsOne(Good):
+        def __init__(self):
+            self.layout = np.random.default_rng(3)
+
+    assert human_problems(KeepsOne) == []
+
+
+def test_the_made_up_walk_has_what_a_run_has():
+    walk = list(observations(1.0, 1.0))
+    start = walk[0]
+    assert not any(start[key].any() for key in ("twist", "pose", "pose_world", "time", "force"))
+    speeds = np.array([seen["twist"][0] for seen in walk])
+    assert (speeds[100:112] == 0.0).all()
+    assert speeds[112:].min() > 0.0
+    assert {int(seen["obstacles"][:, 0].sum()) for seen in walk} == {0, 1, 4}
+    assert {int(seen["force_valid"].sum()) for seen in walk} == {12, 9, 0}
 
 
 def test_a_good_human_passes_as_class_and_as_instance():

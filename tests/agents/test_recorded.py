@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from pyarrow import parquet
 
 from cowalk.agents.humans.recorded import RecordedHuman
-from cowalk.agents.humans.recording import Columns, Units, read_recording, resample
+from cowalk.agents.humans.recording import Columns, read_recording, resample
+from cowalk.agents.humans.recording_units import Units
 from cowalk.scenarios import cli
 from cowalk.scenarios.results import Trace
 from cowalk.sim.errors import InputError
@@ -123,6 +124,74 @@ def test_a_unit_that_nobody_knows_is_refused(tmp_path):
         read_recording(str(tmp_path / "r.parquet"), Columns(), Units())
 
 
+@pytest.mark.parametrize(
+    ("name", "unit"),
+    [
+        ("fx [V]", "V"),
+        ("fx_nm", "nm"),
+        ("fx (kg)", "kg"),
+        ("fx_g", "g"),
+        ("fx_mV", "mV"),
+        ("fx [m/s]", "m/s"),
+        ("fx/counts", "counts"),
+        ("fx_ms", "ms"),
+        ("fx [stone]", "stone"),
+    ],
+)
+def test_what_is_no_force_is_not_read_as_newtons(tmp_path, name, unit):
+    file = write_csv(tmp_path / "r.csv", RISING, np.ones(10), np.ones(10), f"t_s,{name},fy_n")
+    with pytest.raises(InputError, match=f"is in '{unit}'; known: N, mN") as refused:
+        read_recording(file, Columns(fx=name), Units())
+    assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize("name", ["t_n", "t [Hz]", "t_min"])
+def test_what_is_no_time_is_not_read_as_seconds(tmp_path, name):
+    file = write_csv(tmp_path / "r.csv", RISING, np.ones(10), np.ones(10), f"{name},fx_n,fy_n")
+    with pytest.raises(InputError, match=r"known: s, ms"):
+        read_recording(file, Columns(time=name), Units())
+
+
+def test_a_remark_in_brackets_is_no_unit_where_the_scenario_states_one(tmp_path):
+    header = "t_s,force (left),fy_n"
+    file = write_csv(tmp_path / "r.csv", RISING, np.ones(10), np.ones(10), header)
+    columns = Columns(fx="force (left)")
+    with pytest.raises(InputError, match=r"'left'.*if that is no unit, say units\.force"):
+        read_recording(file, columns, Units())
+    np.testing.assert_allclose(read_recording(file, columns, Units(force="N"))[1], 1.0)
+
+
+def test_a_column_in_another_unit_is_not_proposed(tmp_path):
+    file = write_csv(tmp_path / "r.csv", RISING, np.ones(10), np.ones(10), "t_s,fx_nm,fy_n")
+    with pytest.raises(InputError, match=r"no column 'fx_n'; ") as refused:
+        read_recording(file, Columns(), Units())
+    assert "did you mean 'fx_nm'" not in str(refused.value)
+
+
+def test_missing_rows_are_refused_or_held(tmp_path):
+    time = np.concatenate((np.arange(0, 101), np.arange(300, 401))) * 0.002
+    fx = np.where(time < 0.3, 4.0, -4.0)
+    file = write_csv(tmp_path / "r.csv", time, fx, 0.0 * fx)
+    with pytest.raises(
+        InputError, match=r"nothing for 0\.4 s from 0\.2 s on \(row 102, "
+    ) as refused:
+        RecordedHuman(file=file)
+    assert "gaps: hold" in str(refused.value)
+    read, force = read_recording(file, Columns(), Units(), "hold")
+    for how in ("mean", "linear", "hold"):
+        played = resample(read, force, 0.05, how)[:, 0]
+        np.testing.assert_allclose(played[:11], 4.0)  # up to 0.55 s
+        np.testing.assert_allclose(played[12:], -4.0)
+    human = RecordedHuman(file=file, gaps="hold")
+    assert human.gaps == "hold"
+
+
+def test_uneven_rows_without_a_hole_are_read(tmp_path):
+    time = np.cumsum(np.where(np.arange(50) == 20, 0.04, 0.002))
+    read, _ = read_recording(write_csv(tmp_path / "r.csv", time, time, time), Columns(), Units())
+    assert len(read) == 50
+
+
 RISING = np.arange(10) * 0.002
 
 
@@ -159,7 +228,13 @@ def test_what_is_wrong_is_said_in_one_line(tmp_path, columns, arguments, message
         ("none.csv", None, "no such file"),
         ("table.xlsx", b"", r"ends in none of \.csv, \.parquet, \.npy, \.npz"),
         ("r.parquet", b"not parquet", "cannot be read as Parquet"),
-        ("r.npy", b"not numpy", "cannot be read as NumPy"),
+        ("r.npy", b"not numpy", "cannot be read as NumPy: it is damaged"),
+        ("r.npy", b"", "cannot be read as NumPy: it is damaged"),
+        ("r.npz", b"PK\x03\x04 cut short", "cannot be read as NumPy: it is damaged"),
+        ("r.csv", "t_s,fx_n,fy_n,Kräfte\n0,1,2,3\n".encode("latin-1"), "0xe4.*; save .* as UTF-8"),
+        ("r.csv", b"t_s;fx_n;fy_n\n0;1;2\n0.1;1;2\n", "are separated by semicolons"),
+        ("r.csv", b"t_s;fx_n;fy_n\n0,0;1,5;2\n0,1;1;2\n", "are separated by semicolons"),
+        ("r.csv", b"t_s\tfx_n\tfy_n\n0\t1\t2\n", "are separated by tabs"),
         ("r.csv", b"t_s,fx_n,fy_n\n0,1,2\n0.1,1\n", "cannot be read as CSV"),
         ("r.csv", b"t_s,fx_n,fy_n\n0,1,2\n0.1,hard,2\n", "'fx_n' does not hold numbers"),
         ("r.csv", b"t_s,fx_n,fy_n\n0,1,2\n", "holds 1 rows; at least 2"),
@@ -179,6 +254,14 @@ def test_files_that_cannot_be_read_are_named(tmp_path, name, content, message):
     with pytest.raises(InputError, match=message) as refused:
         RecordedHuman(file=str(file))
     assert "\n" not in str(refused.value)
+    assert "pickle" not in str(refused.value)
+
+
+def test_an_array_without_names_is_told_how_to_name_columns(tmp_path):
+    np.save(tmp_path / "plain.npy", np.column_stack((RISING, RISING, RISING)))
+    cure = r'say columns: \{time: "0", fx: "1", fy: "2"\}'
+    with pytest.raises(InputError, match=cure):
+        RecordedHuman(file=str(tmp_path / "plain.npy"))
 
 
 @pytest.mark.parametrize(

@@ -250,6 +250,23 @@ def test_a_sensor_or_a_human_later_than_the_run_is_refused(scenario_file):
     assert "sensor.latency = 0.5 s: must be shorter than the run, duration = 0.4 s" in message
 
 
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ("at_time: 1, pace: 1.4", "pace = 1.4 m/s: must not be above the upper bound of v, 1.2"),
+        ("at_time: 3, pace: 0", "at_time = 3 s: must come before the run is over, duration = 3 s"),
+        ("at_station: 30, pace: 0", "at_station = 30 m: must lie before the end of world.path"),
+    ],
+)
+def test_a_change_of_mind_that_never_comes_is_refused_at_its_line(scenario_file, change, words):
+    changes = "\n    - {at_time: 2.9, pace: 1.2}\n    - {" + change + "}"
+    file = scenario_file(("name: steady", f"name: steady\n  intention:\n   changes:{changes}"))
+    (fault,) = faults(file)
+    key = change.partition(":")[0] if "1.4" not in change else "pace"
+    assert (fault.line, fault.key) == (10, f"human.intention.changes.1.{key}")
+    assert words in fault.message
+
+
 def test_overrides_replace_values_of_any_kind(scenario_file):
     obstacle = "world: {obstacles: [{x: 1, y: 2, radius: 0.5}], "
     scenario = load(

@@ -135,6 +135,8 @@ def test_the_measured_gait_is_that_of_the_healthy(shipped):
         ("- tremor", "- tremro", r"unknown imperfection 'tremro'; did you mean 'tremor'"),
         ("weight: 3", "weight: 0", r":3: groups.0.weight = 0"),
         ("groups:", "group:", r"groups is missing"),
+        ("name: steady", "name: {distribution: norm}", r":5: .*human.name: a name is no number"),
+        ("human: escalating", "human: {distribution: norm}", r"human: a name is no number"),
         ("escalating", "escalatign", r"unknown human 'escalatign'"),
     ],
 )
