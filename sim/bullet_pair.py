@@ -143,7 +143,7 @@ class Pair:
             engine.stepSimulation(self.client)
             samples.append(self.load.read(cos, sin))
         self.restore(saved)
-        return np.array(samples[len(samples) // 2 :]).mean(axis=0)
+        return np.asarray(np.mean(samples[len(samples) // 2 :], axis=0))
 
     def save(self) -> Any:
         """Return what `restore` takes."""

@@ -52,7 +52,7 @@ class SensorParameters:
         Probability that a conversion is lost on its way; the last one is then read again, and
         flagged.
     tare : bool
-        Take off, at the start of an episode, what the unloaded sensor reads over 0.5 s.
+        Take off what is read over 0.5 s before an episode, nobody pushing but a load clamped on.
 
     Raises
     ------

@@ -8,6 +8,7 @@ from cowalk.scenarios import runner
 from cowalk.scenarios.loading import load
 from cowalk.scenarios.runner import make_env, run
 from cowalk.scenarios.schema import Component
+from cowalk.sim.errors import InputError
 
 
 def short(**changes):
@@ -54,3 +55,19 @@ def test_mirroring_twice_changes_nothing():
     force = np.array([[1.0, -2.0], [3.0, 4.0]])
     np.testing.assert_array_equal(mirrored(force), [[1.0, 2.0], [3.0, -4.0]])
     np.testing.assert_array_equal(mirrored(mirrored(force)), force)
+
+
+@pytest.mark.parametrize(
+    ("sensor", "mass"), [("industrial", 8.0), ("laboratory", 5.0), ("low-cost", 4.0)]
+)
+def test_on_wheels_the_weight_of_what_is_carried_steers_nobody(sensor, mass):
+    """What each preset has the range for: the empty stretcher's 8 kg or as much of it as it can."""
+    wheels = "plant.parameters.drive.kind=wheels", f"plant.parameters.coupling.mass={mass}"
+    result = run(load("carry", (*wheels, f"sensor={sensor}")))
+    assert result.passed, result.verdicts
+    assert result.summary["sensor"]["saturated"] < 0.1
+
+
+def test_a_sensor_too_small_for_the_load_is_refused_with_what_would_do():
+    with pytest.raises(InputError, match=r"torque_range = 20 N m: .* 25.2 N m about y.*80%"):
+        run(load("carry", ("plant.parameters.drive.kind=wheels", "sensor=laboratory")))

@@ -263,6 +263,16 @@ def test_a_run_that_went_its_whole_way_is_not_marked():
     assert "ended here" not in labels(figure.axes[0])
 
 
+def test_the_footer_says_what_the_sensor_lost():
+    shares = {"samples": 100, "saturated": 0.25, "lost": 0.0}
+    said = "sensor: 25 % of samples at the end of a channel's range"
+    texts = [
+        run_figure(result(summary={"end": "goal", "sensor": sensor})).get_supxlabel()
+        for sensor in (shares, shares | {"saturated": 0.0})
+    ]
+    assert [said in text for text in texts] == [True, False]
+
+
 def test_heading_and_verdicts():
     verdicts = [
         Verdict("dry", "always (clearance >= 0.0)", 0.132, True),

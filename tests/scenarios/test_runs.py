@@ -239,3 +239,9 @@ def test_a_run_that_dies_midway_says_why_and_keeps_its_trace(name, said, tmp_pat
     assert not result.passed
     folder = result.write(tmp_path / "run")
     assert len(Trace.read(folder / "trace.parquet")) == 30
+
+
+@pytest.mark.parametrize("pace", [0.8, 1.2])
+def test_walking_hand_in_hand_is_taken_for_no_wish_at_any_usual_pace(pace):
+    result = run(load("walk", (f"pace={pace}",)))
+    assert result.passed, result.verdicts

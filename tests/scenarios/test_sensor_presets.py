@@ -7,6 +7,7 @@ import pytest
 
 from cowalk.scenarios import run
 from cowalk.scenarios.loading import faults, load, to_yaml
+from cowalk.scenarios.sensing import sensor_faults
 from cowalk.sim.bullet_coupling import COUPLINGS
 from cowalk.sim.drive import DRIVES
 from cowalk.sim.errors import InputError
@@ -75,6 +76,30 @@ def test_faults_are_named(with_sensor, sensor, named):
         load(file)
 
 
+def test_shares_of_lost_and_saturated_samples_are_told(with_sensor):
+    told = []
+    for sensor in ("{drop_rate: 0.05}", "{range: 2.0}", "{}"):
+        result = run(load(with_sensor(sensor), ["duration=10", "human.parameters.level=[1, 1]"]))
+        assert result.error is None, result.error
+        told.append((result.summary["sensor"], sensor_faults(result.summary)))
+    (lossy, lost), (narrow, saturated), (_, well) = told
+    # 6 s to the end of the corridor, at 240 Hz; losses are binomial: five standard deviations.
+    assert lossy["samples"] > 1200
+    apart = 5.0 * (0.05 * 0.95 / lossy["samples"]) ** 0.5
+    assert lossy["lost"] == pytest.approx(0.05, abs=apart)
+    assert lossy["saturated"] == narrow["lost"] == 0.0
+    assert (
+        lost
+        == f"{100.0 * lossy['lost']:.2g} % of samples lost on their way, an older one read again"
+    )
+    assert narrow["saturated"] > 0.0
+    assert (
+        saturated
+        == f"{100.0 * narrow['saturated']:.2g} % of samples at the end of a channel's range"
+    )
+    assert well is None
+
+
 OPTIONS = list(itertools.product(PRESETS, DRIVES, GRIPS, COUPLINGS))
 
 
@@ -88,6 +113,10 @@ def test_every_sensor_on_every_way_of_building_the_plant(option):
         "duration=1.5",
         "expect={}",
     ]
+    if (drive, coupling) == ("wheels", "stretcher") and preset != "industrial":
+        with pytest.raises(InputError, match=r"sensor.torque_range = .* 25.* N m about y"):
+            run(load("walk", [*built, f"sensor={preset}"]))
+        built.append("plant.parameters.coupling.mass=4")
     sensed = [run(load("walk", [*built, f"sensor={preset}"])) for _ in range(2)]
     assert sensed[0].error is None, sensed[0].error
     assert sensed[0].trace.values.tobytes() == sensed[1].trace.values.tobytes()
