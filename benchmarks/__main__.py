@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-import sys
+from argparse import ArgumentParser, RawDescriptionHelpFormatter
 from functools import partial
 
 from rich.console import Console
 from rich.table import Table
+
+from cowalk.sim.registry import did_you_mean
 
 from . import (
     closed_loop,
@@ -43,10 +45,18 @@ def verdict(value: float, target: tuple[str, float]) -> tuple[str, str]:
 
 def main() -> None:
     """Measure subjects and print a table each."""
-    console = Console()
-    chosen = sys.argv[1:] or list(SUBJECTS)
+    # A subject may hold blanks, and argparse breaks lines there; so one a line as it is.
+    parser = ArgumentParser(
+        prog="python -m benchmarks",
+        description="Print measurements as tables, all of them without a subject.",
+        epilog="subjects:\n" + "\n".join(f"  {name!r}" for name in SUBJECTS),
+        formatter_class=RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("subject", nargs="*", help="what to measure, in quotes")
+    chosen = parser.parse_args().subject or list(SUBJECTS)
     if unknown := [name for name in chosen if name not in SUBJECTS]:
-        sys.exit(f"unknown subject {unknown[0]!r}; known: {', '.join(SUBJECTS)}")
+        parser.error(f"unknown subject {unknown[0]!r}; {did_you_mean(unknown[0], list(SUBJECTS))}")
+    console = Console()
     for title in chosen:
         measure = SUBJECTS[title]
         rows = [(*row, None) if len(row) == 3 else row for row in measure()]

@@ -135,6 +135,7 @@ def _load(source: str, options: dict[str, str], assignments: list[str]) -> Scena
 def _report(result: RunResult, folder: Path, files: dict[str, str]) -> None:
     from .expectations import explain
     from .results import how_it_ended
+    from .sensing import sensor_faults
 
     summary = result.summary
     metrics = summary["metrics"]
@@ -158,6 +159,8 @@ def _report(result: RunResult, folder: Path, files: dict[str, str]) -> None:
     for what, file in files.items():
         print(f"{what + ':':<9} {file}")
     print(f"ended by: {how_it_ended(summary)}")
+    if faults := sensor_faults(summary):
+        print(f"sensor:   {faults}")
     factor, wall = summary["real_time_factor"], summary["wall_time_s"]
     if factor is not None:
         print(f"speed:    {two_digits(factor)} times real time ({wall:.2f} s)")

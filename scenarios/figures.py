@@ -18,6 +18,7 @@ from .figures_paper import draw_paper_panels, draw_utility_loss
 from .figures_style import AGREED, FAULT, house_style, legend_above, new_figure, save
 from .figures_top_view import draw_bodies, draw_top_view, window_of
 from .results import how_it_ended
+from .sensing import sensor_faults
 
 if TYPE_CHECKING:
     from .results import RunResult
@@ -108,6 +109,8 @@ def _early_end(result: RunResult) -> str | None:
 def _footer(result: RunResult) -> list[str]:
     reason = _early_end(result)
     lines = textwrap.wrap(f"ended early: {reason}", LINE) if reason else []
+    if faults := sensor_faults(result.summary):
+        lines += textwrap.wrap(f"sensor: {faults}", LINE)
     for verdict in result.verdicts:
         why = verdict.reason or f"margin {verdict.robustness:+.3g}"
         if verdict.violated_at is not None:

@@ -18,7 +18,6 @@ from .figures_style import (
     HUMAN_DARK,
     HUMAN_FORWARD,
     MUTED,
-    halo,
     house_style,
     legend_above,
     new_figure,
@@ -35,8 +34,9 @@ ROBOTS: dict[str, tuple[float, dict[str, Any]]] = {
 WIDTH, HEIGHT, DPI = 10.0, 6.2, 140
 STAGE = (
     "The robot wants straight on at 0.6 m/s, 0.6 m to the right of where the human wants to walk "
-    "at 0.8 m/s; it concedes a fixed share of the difference.\nLower right: kept at that offset "
-    "for 30 s; “paper” is concession = stubbornness, where the paper's automation comes to rest."
+    "at 0.8 m/s; it concedes a fixed share of the difference.\nRight: kept at that offset until "
+    "settled, at most 90 s; “paper” is concession = stubbornness, where the paper's automation "
+    "comes to rest."
 )
 CONCESSIONS = np.linspace(0.0, 1.0, 21)
 LEAST_FORCE = 1.0
@@ -55,26 +55,23 @@ def draw_human(human: Human, bare: Human | None, title: str, file: Path) -> dict
         Heading.
     file : Path
     """
-    settled = settled_stubbornness(human, CONCESSIONS)
-    meeting = {
-        name: fixed_points(CONCESSIONS, settled[:, i]) for i, name in enumerate(("v", "omega"))
-    }
     with house_style():
         figure = new_figure(WIDTH, HEIGHT, DPI)
-        panels = figure.subplots(2, 2, width_ratios=(1.5, 1.0))
+        grid = figure.add_gridspec(2, 3, width_ratios=(1.3, 1.0, 1.1))
+        panels = np.array([[figure.add_subplot(grid[i, j]) for j in (0, 1)] for i in (0, 1)])
         for name, (concession, style) in ROBOTS.items():
             if bare is not None:
                 unspoilt = answer(bare, concession)
                 _curves(panels, unspoilt, {"color": MUTED, "lw": 0.8, "ls": style["ls"]})
             _curves(panels, answer(human, concession), style | {"label": f"robot {name}"})
-        _label(panels[0, 0], "sideways force", "N", True)
-        _label(panels[1, 0], "forward force", "N", True)
-        _label(panels[0, 1], "stubbornness in ω", "share", False)
-        _share_axis(panels[0, 1])
+        for row, (force, share) in enumerate((("sideways", "ω"), ("forward", "v"))):
+            _label(panels[row, 0], f"{force} force", "N", True)
+            _label(panels[row, 1], f"stubbornness in {share}", "share", False)
+            _share_axis(panels[row, 1])
         legend_above(panels[0, 0])
-        for axis in (*panels[:, 0], panels[0, 1]):
+        for axis in panels[1]:
             axis.set_xlabel("time in s")
-        _settled_panel(panels[1, 1], settled, meeting)
+        meeting = _settled_panel(figure.add_subplot(grid[:, 2]), human)
         figure.suptitle(title, x=0.012, ha="left", size=10.0, parse_math=False)
         figure.supxlabel(STAGE, x=0.012, ha="left", size=8.0)
     save(figure, file)
@@ -121,9 +118,9 @@ def draw_imperfection(
 
 
 def _curves(panels: Any, found: Answer, style: dict[str, Any]) -> None:
-    shown = ((panels[0, 0], found.force[:, 1]), (panels[1, 0], found.force[:, 0]))
-    for axis, values in (*shown, (panels[0, 1], found.stubbornness[:, 1])):
-        axis.plot(found.time, values, **style)
+    for row, i in enumerate((1, 0)):
+        panels[row, 0].plot(found.time, found.force[:, i], **style)
+        panels[row, 1].plot(found.time, found.stubbornness[:, i], **style)
 
 
 def _label(axis: Axes, title: str, unit: str, force: bool) -> None:
@@ -139,51 +136,48 @@ def _share_axis(axis: Axes) -> None:
     axis.set_ylim(-0.03, 1.03)
 
 
-def _settled_panel(axis: Axes, settled: Array, meeting: dict[str, list[float]]) -> None:
-    """Draw settled stubbornness over concession, and where the paper's automation meets it."""
-    axis.plot(CONCESSIONS, settled[:, 1], color=HUMAN, label="in ω")
-    axis.plot(CONCESSIONS, settled[:, 0], color=HUMAN_FORWARD, ls="--", label="in v")
-    axis.plot((0.0, 1.0), (0.0, 1.0), color=AUTOMATION, lw=1.0, label="paper")
-    marks: dict[str, dict[str, Any]] = {
-        "v": {"mfc": "white", "mec": HUMAN_FORWARD, "mew": 1.6, "ms": 9.0, "zorder": 4.0},
-        "omega": {"color": HUMAN_DARK, "ms": 6.0, "zorder": 5.0},  # within the ring of v
+def _settled_panel(axis: Axes, human: Human) -> dict[str, list[float]]:
+    """Draw settled stubbornness over concession, and return where the paper's automation rests."""
+    if not getattr(human, "closed_loop", True):
+        axis.set_axis_off()
+        axis.text(0.0, 1.0, "A prescribed force\nanswers no concession.", va="top")
+        return {"v": [], "omega": []}
+    settled = settled_stubbornness(human, CONCESSIONS)
+    styles: dict[str, tuple[int, str, dict[str, Any], dict[str, Any]]] = {
+        "v": (
+            0,
+            "in v",
+            {"color": HUMAN_FORWARD, "ls": "--", "zorder": 3.0},
+            {"mfc": "white", "mec": HUMAN_FORWARD, "mew": 1.6, "ms": 9.0, "zorder": 4.0},
+        ),
+        "omega": (
+            1,
+            "in ω",
+            {"color": HUMAN, "zorder": 2.5},
+            {"color": HUMAN_DARK, "ms": 6.0, "zorder": 5.0},  # within the ring of v
+        ),
     }
-    for name, style in marks.items():
-        axis.plot(meeting[name], meeting[name], "o", ls="none", clip_on=False, **style)
-    found = sorted((p, "v" if name == "v" else "ω") for name in meeting for p in meeting[name])
-    for group in _close_together(found):
-        place = group[0][0]
-        left = place > 0.7
-        axis.annotate(
-            _points_text(group),
-            (place, place),
-            (-10 if left else 10, -4),
-            textcoords="offset points",
-            ha="right" if left else "left",
-            va="top" if place > 0.1 else "bottom",
-            path_effects=halo(),
-            zorder=6.0,
+    meeting, rests = {}, []
+    for name, (i, label, line, mark) in styles.items():
+        points, jumps = fixed_points(
+            CONCESSIONS,
+            settled[:, i],
+            lambda c, i=i: float(settled_stubbornness(human, np.array([c]))[0, i]),
         )
+        meeting[name] = points
+        breaks = np.searchsorted(CONCESSIONS, jumps)
+        axis.plot(
+            np.insert(CONCESSIONS, breaks, jumps),
+            np.insert(settled[:, i], breaks, np.nan),
+            label=label,
+            **line,
+        )
+        axis.plot(points, points, "o", ls="none", clip_on=False, **mark)
+        texts = [f"{p:.2f}" for p in points] + [f"jumps past it at {p:.2f}" for p in jumps]
+        rests.append(f"{label}: {', '.join(texts) or 'nowhere'}")
+    axis.plot((0.0, 1.0), (0.0, 1.0), color=AUTOMATION, lw=1.0, label="paper")
     _share_axis(axis)
-    axis.set_xlabel("concession of the robot, held")
+    axis.set_xlabel("\n".join(("concession of the robot, held", "the paper's rests", *rests)))
     _label(axis, "settled stubbornness", "share", False)
     legend_above(axis)
-
-
-def _close_together(points: list[tuple[float, str]]) -> list[list[tuple[float, str]]]:
-    """Return rising points, each with its dimension, in groups that share a label."""
-    groups: list[list[tuple[float, str]]] = []
-    for point in points:
-        if groups and point[0] - groups[-1][-1][0] < 0.1:
-            groups[-1].append(point)
-        else:
-            groups.append([point])
-    return groups
-
-
-def _points_text(group: list[tuple[float, str]]) -> str:
-    """Return a label: each dimension's values, or one value that both have."""
-    values = {name: [f"{p:.2f}" for p, of in group if of == name] for name in ("v", "ω")}
-    if values["v"] == values["ω"]:
-        return f"v, ω {', '.join(values['v'])}"
-    return ", ".join(f"{name} {', '.join(found)}" for name, found in values.items() if found)
+    return meeting

@@ -19,6 +19,8 @@ from .schema import HumanComponent
 from .wording import validate
 
 PLANT = "unicycle"
+DURATION, FORCE = 12.0, 5.0
+"""The push that shows an open-loop human without a profile, s and N."""
 RUNS = 3
 """Runs of an imperfection that draws, of which one is drawn boldly."""
 
@@ -43,6 +45,11 @@ def human_section(
     component, problems = validate(HumanComponent, data["human"], ("human",))
     if component is None:
         raise InputError(problems[0].message)
+    if component.name != name:
+        raise InputError(
+            f"--set human.name={component.name}: the model is named as the argument; "
+            f"cowalk humans show {component.name}"
+        )
     return component
 
 
@@ -68,9 +75,13 @@ def show_human(
         If a name, a value or the file is not right.
     """
     component = human_section(name, imperfections, assignments)
+    title = f"human {name}"
+    if name == "open-loop" and "profile" not in component.parameters:
+        shown = {"profile": push(DURATION, FORCE, forward=True)} | component.parameters
+        component = component.model_copy(update={"parameters": shown})
+        title += " on a push made up for this picture"
     human = build_human(component, PLANT, SITUATION.period)
     bare = None
-    title = f"human {name}"
     if component.imperfections:
         without = component.model_copy(update={"imperfections": ()})
         bare = build_human(without, PLANT, SITUATION.period)

@@ -30,6 +30,7 @@ from .loading import load
 from .metrics import metrics
 from .results import RunResult, Trace, json_ready
 from .schema import Scenario
+from .sensing import SampleCount
 from .watching import Watcher, close_all
 
 _VERSIONED = ("numpy", "scipy", "pybullet", "pettingzoo", "filterpy")
@@ -115,10 +116,10 @@ def run(
     """
     human, automation = build_agents(scenario)
     env = make_env(scenario, "human" if window else None)
-    trace = Trace()
+    trace, count = Trace(), SampleCount()
     started = time.perf_counter()
     try:
-        end, error = _episode(scenario, env, human, automation, trace, progress, watchers)
+        end, error = _episode(scenario, env, human, automation, trace, count, progress, watchers)
         touched = collision(env) if end == "collision" else None
     finally:
         lost = close_all(watchers)
@@ -127,7 +128,7 @@ def run(
         end, error = "aborted", f"{scenario.name}: {lost}"
     wall_time = time.perf_counter() - started
     result = _result(scenario, trace, end, error, wall_time)
-    result.summary["contact"] = touched
+    result.summary |= {"contact": touched, "sensor": count.summary()}
     if len(trace):
         result.outlines = outlines(env)
     return result
@@ -139,6 +140,7 @@ def _episode(
     human: Human,
     automation: Automation,
     trace: Trace,
+    count: SampleCount,
     progress: Progress | None,
     watchers: Sequence[Watcher],
 ) -> tuple[str, str | None]:
@@ -182,6 +184,7 @@ def _episode(
             belief = _of_belief(automation.belief())
             actor = "plant"
             observations, _, _, _, infos = env.step({"human": force, "automation": twist})
+            count.add(env.sensor_reading)
             time_now = (len(trace) + 1) / scenario.rates.control
             trace.append(_row(time_now, env, truth, belief, infos["human"]["clearance"]))
             for watcher in watchers:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 from gymnasium.spaces import Box
 
@@ -31,6 +33,28 @@ class Actions:
         self._limits = {
             seat: (*box.low.tolist(), *box.high.tolist()) for seat, box in self.spaces.items()
         }
+
+    def of_both(
+        self, actions: Mapping[str, Array], time: float
+    ) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Return the human's force (N) and the automation's twist (m/s, rad/s), clipped.
+
+        Raises
+        ------
+        SimulationError
+            If a seat has no action or an action no seat, or `bounded` refuses one.
+        """
+        if actions.keys() != self._limits.keys():
+            missing = [f"{seat!r} has no action" for seat in self._limits if seat not in actions]
+            unknown = [f"{name!r} is no seat" for name in actions if name not in self._limits]
+            seats = " and ".join(self._limits)
+            raise SimulationError(
+                f"step: {', '.join(missing + unknown)}; give one to each of {seats}"
+            )
+        return (
+            self.bounded("human", actions["human"], time),
+            self.bounded("automation", actions["automation"], time),
+        )
 
     def bounded(self, seat: str, action: Array, time: float) -> tuple[float, float]:
         """Return an action, clipped to its space.

@@ -24,11 +24,50 @@ FORE_SLOPE = 0.30
 STEEPEST = 0.90
 """Sine of the steepest slant of either link: steeper ones leave no lever seen from above
 (inferred)."""
-SHOULDER_RANGE, ELBOW_RANGE = (-0.80, 2.70), (-2.55, -0.02)
-"""Range of a left arm's joints in the horizontal plane, rad: the upper arm's azimuth from
-straight ahead, outwards positive, and the elbow's flexion (0 to about 145 degrees; American
-Academy of Orthopaedic Surgeons 1965). The shoulder's is inferred: the adduction across the
-chest, and extension behind the trunk with the upper arm hanging."""
+STOOP = 0.05
+"""How far a shoulder comes down, by knees and a lean, to a handle that is too low for a straight
+back, share of the height (inferred): so 2.2 m still carry at 0.95 m."""
+SHOULDER_FREE, ELBOW_FREE = (-0.80, 2.70), (-2.55, -0.35)
+"""Where a left arm's joints move freely in the horizontal plane, rad: the upper arm's azimuth from
+straight ahead, outwards positive, and the angle from it to the forearm's. Inferred: adduction
+across the chest, extension behind the trunk with the upper arm hanging, and the elbow's flexion of
+about 145 degrees (American Academy of Orthopaedic Surgeons 1965). That flexion is of level links:
+seen from above, slanted ones fold further while the elbow itself is less bent."""
+SHOULDER_RANGE, ELBOW_RANGE = (-1.05, 2.95), (-2.80, -0.02)
+"""Where the engine stops them, rad. In between, soft tissue resists (`end_torque`)."""
+END_STIFFNESS = 1500.0
+"""Elastic torque at the end of a joint's range, for each kg m^2 of the forearm about the elbow and
+rad^2 beyond the free range: 0.25 rad take 6 N m in an adult of 70 kg. That such torques are passive
+and rise more than in proportion is known (double exponentials in the lower limbs: Riener and Edrich
+1999, J Biomech 32:539); size and square are inferred, far inside of what a step can carry
+(`cowalk.sim.stability`)."""
+END_DAMPING = 0.015
+"""Excess that counts as much as a rad/s of going further, s (inferred): damping and stiffness stay
+in proportion, half of this, so that holding a torque for a few steps of 1/240 s adds no energy."""
+
+
+def end_torque(beyond: float, rate: float, stiffness: float) -> float:
+    """Return the torque that brings a joint back into its free range, N m.
+
+    T = -k d (|d| + c d'), d being the excess: it starts softly, and never pulls a joint that comes
+    back (as the contact law of Hunt and Crossley 1975, J Appl Mech 42:440, whose damping also
+    begins at zero).
+
+    Parameters
+    ----------
+    beyond : float
+        How far the joint is out of its free range, rad; negative below it.
+    rate : float
+        Of the joint, rad/s.
+    stiffness : float
+        k, N m/rad^2.
+    """
+    further = rate if beyond > 0.0 else -rate
+    return -stiffness * beyond * max(0.0, abs(beyond) + END_DAMPING * further)
+
+
+ROUNDING = 1e-9
+"""m."""
 
 
 class Link(NamedTuple):
@@ -65,6 +104,13 @@ def slanted(segment: Segment, drop: float) -> Link:
     )
 
 
+def shoulder_height(body: BodyParameters, grip_height: float) -> float:
+    """Return how high a shoulder is with the grip at a height, m: upright if that reaches."""
+    upright = SHOULDER_HEIGHT * body.height
+    reach = STEEPEST * (segment(body, "upper_arm").length + forearm_with_hand(body).length)
+    return min(upright, max(grip_height + reach, upright - STOOP * body.height))
+
+
 def links(body: BodyParameters, grip_height: float) -> tuple[Link, Link]:
     """Return upper arm, and forearm with hand, so slanted that the grip is at a height (m).
 
@@ -76,13 +122,14 @@ def links(body: BodyParameters, grip_height: float) -> tuple[Link, Link]:
         If no slant reaches the height.
     """
     upper, fore = segment(body, "upper_arm"), forearm_with_hand(body)
-    drop = SHOULDER_HEIGHT * body.height - grip_height
+    shoulders = shoulder_height(body, grip_height)
+    drop = shoulders - grip_height
     steep = STEEPEST * upper.length
     upper_drop = min(max(drop - FORE_SLOPE * fore.length, -steep), steep)
-    if abs(drop - upper_drop) > STEEPEST * fore.length:
+    if abs(drop - upper_drop) > STEEPEST * fore.length + ROUNDING:
         raise InputError(
             f"a human of {body.height} m cannot hold a handle at {grip_height:.2f} m: their "
-            f"shoulder is at {SHOULDER_HEIGHT * body.height:.2f} m"
+            f"shoulder is at {shoulders:.2f} m"
         )
     return slanted(upper, upper_drop), slanted(fore, drop - upper_drop)
 
@@ -98,12 +145,15 @@ class Arm:
     upper, fore : Link
     side : float
         +1 left, -1 right: where the elbow points, and which way the joints' ranges lie.
+    height : float
+        Of the shoulder, m.
     """
 
     shoulder: tuple[float, float]
     upper: Link
     fore: Link
     side: float = 1.0
+    height: float = math.nan
 
     def angles(self, hand: tuple[float, float]) -> tuple[float, float]:
         """Return the shoulder and elbow angle (rad) that put the hand at a place in trunk axes.
@@ -113,7 +163,7 @@ class Arm:
         Raises
         ------
         InputError
-            If the hand cannot get there within the joints' ranges.
+            If the hand cannot get there within the joints' free ranges.
         """
         upper, fore = self.upper.length, self.fore.length
         x, y = hand[0] - self.shoulder[0], self.side * (hand[1] - self.shoulder[1])
@@ -121,14 +171,27 @@ class Arm:
         elbow = -math.acos(reach) if -1.0 < reach < 1.0 else 1.0
         bend = math.atan2(fore * math.sin(elbow), upper + fore * math.cos(elbow))
         shoulder = math.remainder(math.atan2(y, x) - bend, math.tau)
-        lowest, highest = ELBOW_RANGE
-        if not (lowest < elbow < highest and SHOULDER_RANGE[0] < shoulder < SHOULDER_RANGE[1]):
+        lowest, highest = ELBOW_FREE
+        if not (lowest < elbow < highest and SHOULDER_FREE[0] < shoulder < SHOULDER_FREE[1]):
             raise InputError(
                 f"a hand at ({hand[0]:.2f}, {hand[1]:.2f}) m is out of reach of an arm of "
                 f"{upper:.2f} + {fore:.2f} m (seen from above) at "
                 f"({self.shoulder[0]:.2f}, {self.shoulder[1]:.2f}) m"
             )
         return self.side * shoulder, self.side * elbow
+
+    @property
+    def end_stiffness(self) -> float:
+        """Of `end_torque`, N m/rad^2."""
+        fore = self.fore
+        return END_STIFFNESS * (fore.inertia + fore.mass * fore.centre**2)
+
+    @property
+    def free(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Free range of shoulder and elbow, rad, as this arm's side has it."""
+        if self.side > 0.0:
+            return SHOULDER_FREE, ELBOW_FREE
+        return (-SHOULDER_FREE[1], -SHOULDER_FREE[0]), (-ELBOW_FREE[1], -ELBOW_FREE[0])
 
     def span(self, elbow: float) -> float:
         """Return the distance from shoulder to hand, seen from above, at an elbow angle, m."""
@@ -156,6 +219,12 @@ class Arm:
         Lambda a to the force of the hand, Lambda = J^-T (M J^-1 - sum_i m_i J_i^T), where M is
         the joint-space mass matrix and J_i the Jacobian of the centre of link i.
         """
+        mass, carried = self.inertia(shoulder, elbow)
+        inverse = np.linalg.inv(self.jacobian(shoulder, elbow))
+        return np.asarray(inverse.T @ (mass @ inverse - carried))
+
+    def inertia(self, shoulder: float, elbow: float) -> tuple[Array, Array]:
+        """Return M, kg m^2, and sum_i m_i J_i^T, kg m, each of shape (2, 2)."""
         mass = np.zeros((2, 2))
         carried = np.zeros((2, 2))
         for index, link in enumerate((self.upper, self.fore)):
@@ -163,8 +232,7 @@ class Arm:
             turns = np.array([1.0, float(index)])
             mass += link.mass * centre.T @ centre + link.inertia * np.outer(turns, turns)
             carried += link.mass * centre.T
-        inverse = np.linalg.inv(self.jacobian(shoulder, elbow))
-        return np.asarray(inverse.T @ (mass @ inverse - carried))
+        return mass, carried
 
 
 def arm_of(body: BodyParameters, side: str, grip_height: float) -> Arm:
@@ -172,7 +240,8 @@ def arm_of(body: BodyParameters, side: str, grip_height: float) -> Arm:
     sign = 1.0 if side == "left" else -1.0
     # The joint's centre lies a little outside and below the acromion's mark (inferred).
     shoulder = (0.0, sign * SHOULDER_BREADTH * body.height)
-    return Arm(shoulder, *links(body, grip_height), sign)
+    height = shoulder_height(body, grip_height)
+    return Arm(shoulder, *links(body, grip_height), sign, height)
 
 
 SHOULDER_BREADTH = 0.2 / 1.75

@@ -129,7 +129,8 @@ class BulletPlant:
         pair.put((x, y, yaw, 0.0, 0.0, 0.0), human + (0.0,) * len(human), load)
         self._stopped = False
         self._watch()
-        return self._state(np.zeros((self._rates.samples, 6)))
+        standing = pair.standing_wrench(1.0 / self._rates.physics)
+        return self._state(np.tile(standing, (self._rates.samples, 1)))
 
     def save(self) -> Any:
         """See `Plant.save`."""

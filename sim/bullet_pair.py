@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
+
+import numpy as np
 
 from .anthropometry import BodyParameters
 from .bullet_bodies import Base, Chain, SlipBase, State
@@ -17,12 +20,15 @@ from .errors import InputError
 from .gains import Gains, refuse_unstable
 from .grip import GripParameters
 from .human_body import arm_outlines, eye, human_body, trunk_outline
+from .motion import Array
 from .outline import Bodies
 from .robot import RobotParameters, robot_of, two_hands
 from .stability import Masses
 from .urdf import Vector
 from .walker import WalkerParameters
 
+SETTLING = 0.25
+"""Time in which the floor takes the load's weight, s: within 0.1 % after 0.05 s."""
 SOLVER_ITERATIONS = {"slip": 10, "wheels": 50}
 """By drive. Grips alone come within 0.01 N of what 200 iterations give, contacts take longer."""
 
@@ -118,6 +124,26 @@ class Pair:
         if self.load:
             self.load.slab.put(load[:3], load[3:])
         self.base_state, self.human_state, self.load_state = base, human, load
+
+    def standing_wrench(self, step: float) -> Array:
+        """Return the wrench on the base at rest, nobody pushing: base axes, about the handle, (6,).
+
+        On planar joints nothing has weight, and without a load none hangs on the sensor. On a
+        floor the load stands on its own for `SETTLING`, at the end of which it is measured, and
+        then everything is put back.
+        """
+        if self.load is None or self._owner is None:
+            return np.zeros(6)
+        saved = self.save()
+        samples = []
+        for _ in range(round(SETTLING / step)):
+            state = self.base.read()
+            cos, sin = math.cos(state[2]), math.sin(state[2])
+            self.base.drive(state, cos, sin, (0.0, 0.0, 0.0))
+            engine.stepSimulation(self.client)
+            samples.append(self.load.read(cos, sin))
+        self.restore(saved)
+        return np.array(samples[len(samples) // 2 :]).mean(axis=0)
 
     def save(self) -> Any:
         """Return what `restore` takes."""

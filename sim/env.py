@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import inspect
 from typing import Any, ClassVar
 
 import numpy as np
@@ -18,12 +17,12 @@ from .observation import Observation
 from .path import Path
 from .perception import Perception, observation_space
 from .plant import Plant, PlantState, Rates
-from .plants import PLANTS
+from .plants import build_plant
 from .reward import Reward
 from .saved import Saved, checked
 from .seats import SEATS
 from .sensor import ForceSensor, Reading
-from .sensor_parameters import SensorParameters
+from .sensor_parameters import SensorParameters, sensor_preset
 from .world import Corridor, World
 
 STRAIGHT_CORRIDOR = World(path=Path(((0.0, 0.0), (20.0, 0.0))), corridor=Corridor(width=3.0))
@@ -61,7 +60,8 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
     plant_parameters : dict, optional
         Further arguments of the plant's constructor.
     rates : Rates
-    sensor : SensorParameters
+    sensor : SensorParameters or str
+        Or the name of a preset.
     bounds : TwistBounds
         Bounds of the automation's action.
     pace : float
@@ -76,7 +76,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
     Raises
     ------
     InputError
-        If the plant is unknown.
+        If the plant, one of its parameters or the sensor is unknown.
     """
 
     metadata: ClassVar[dict[str, Any]] = {
@@ -93,13 +93,14 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         plant: str = "bullet",
         plant_parameters: dict[str, Any] | None = None,
         rates: Rates = Rates(),
-        sensor: SensorParameters = SensorParameters(),
+        sensor: SensorParameters | str = SensorParameters(),
         bounds: TwistBounds = TwistBounds(),
         pace: float = 0.8,
         duration: float = 30.0,
         force_limit: float = 30.0,
         render_mode: str | None = None,
     ) -> None:
+        sensor = sensor_preset(sensor) if isinstance(sensor, str) else sensor
         self.world, self.rates, self.bounds, self.pace = world, rates, bounds, pace
         self.steps_per_episode = max(1, round(duration * rates.control))
         if render_mode not in (None, *self.metadata["render_modes"]):
@@ -113,12 +114,9 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
             "sensor": sensor,
             "duration": duration,
         }
-        constructor = PLANTS.get(plant)
-        arguments = dict(plant_parameters or {})
-        if render_mode == "human" and "gui" in inspect.signature(constructor).parameters:
-            arguments["gui"] = True
-        self._plant: Plant = constructor(rates, **arguments)
-        self._window_needed = render_mode == "human" and "gui" not in arguments
+        watched = render_mode == "human"
+        self._plant, shown = build_plant(plant, rates, plant_parameters or {}, watched)
+        self._window_needed = watched and not shown
         self.possible_agents = list(SEATS)
         self.agents: list[str] = []
         self._actions = Actions(bounds, force_limit)
@@ -168,7 +166,8 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         Raises
         ------
         InputError
-            If a body starts in touch with something solid.
+            If a body starts in touch with something solid, or what hangs on the sensor at rest
+            is beyond its range.
         SimulationError
             If the environment is closed.
         """
@@ -180,10 +179,9 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self.agents = list(SEATS)
         self._step_count = 0
         self._started = True
-        self._sensor.reset(sensor_rng)
-        self._state = self._plant.reset(self.world, plant_rng)
-        self._reading = self._sensor.measure(self._state.wrench_on_base, self._state.mount)
-        state = self._state
+        state = self._state = self._plant.reset(self.world, plant_rng)
+        self._sensor.reset(sensor_rng, state.wrench_on_base[-1], state.mount)
+        self._reading = self._sensor.measure(state.wrench_on_base, state.mount)
         clearance, touching = self._distances(self._time, *state.poses)
         if touching:
             plant = self._plant
@@ -211,15 +209,13 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         Raises
         ------
         SimulationError
-            If an action is not finite, no episode is under way, or the plant cannot go on.
+            If an action is missing or not finite, no episode is under way, or the plant cannot
+            go on.
         """
         if not self.agents:
             what = "no episode is under way: call reset before step"
             raise SimulationError(CLOSED if self._closed else what)
-        bounded, now = self._actions.bounded, self._time
-        force = bounded("human", actions["human"], now)
-        twist = bounded("automation", actions["automation"], now)
-        self.applied = force, twist
+        force, twist = self.applied = self._actions.of_both(actions, self._time)
         state = self._state = self._plant.step(twist, force)
         self._step_count += 1
         self._reading = self._sensor.measure(state.wrench_on_base, state.mount)

@@ -99,6 +99,13 @@ def refuse_unstable(bodies: Masses, gains: Gains, step: float, held: int) -> Non
     if gains.changed and _stable(linear, Gains(), held):
         names = ", ".join(f"{section}.{name}" for section, name in gains.changed)
         raise InputError(f"{names}: together they would let the bodies diverge; see docs/plant.md")
+    if (latest := _latest(linear, gains, held)) is not None:
+        body = bodies.human.parameters
+        raise InputError(
+            f"walker.delay = {gains.walker.delay:g} s: the legs of this body "
+            f"({body.height:g} m, {body.mass:g} kg) would swing up; at most {latest:g} works here, "
+            "or lower walker.damping and walker.yaw_damping"
+        )
     rate = round(1.0 / step)
     enough = (n for n in FASTER if _stable(Linear(bodies, step / n), gains, held))
     cure = next((f"{n * rate} works" for n in enough), "the robot or its load may be too light")
@@ -115,6 +122,14 @@ def _stable(linear: Linear, gains: Gains, held: int) -> bool:
         linear.growth(strained.walker, strained.grip, held, lost) <= 1.0 + GROWTH
         for lost in ((False, True) if may_be_lost else (False,))
     )
+
+
+def _latest(linear: Linear, gains: Gains, held: int) -> float | None:
+    """Return the longest delay that works, whole updates, s; None if not even none does."""
+    period = linear.step * held
+    delays = (n * period for n in range(round(gains.walker.delay / period) - 1, -1, -1))
+    works = (delay for delay in delays if _stable(linear, gains.having(*DELAY, delay), held))
+    return next((math.floor(1e4 * delay) / 1e4 for delay in works), None)
 
 
 def _limit(linear: Linear, gains: Gains, held: int, section: str, name: str) -> Any:

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 from .anthropometry import (
     EYE_HEIGHT,
-    SHOULDER_HEIGHT,
     BodyParameters,
     trunk_breadth,
     trunk_depth,
@@ -79,7 +78,7 @@ class HumanBody:
         parts = [link("trunk", body.mass - held, (0.0, 0.0, 0.57 * body.height), yaw_inertia(body))]
         for side, arm in zip(body.sides, self.arms, strict=True):
             upper, fore = arm.upper, arm.fore
-            shoulder = (*arm.shoulder, SHOULDER_HEIGHT * body.height)
+            shoulder = (*arm.shoulder, arm.height)
             elbow = (upper.length, 0.0, -upper.drop)
             limits = [
                 (low, high) if arm.side > 0.0 else (-high, -low)
@@ -157,9 +156,8 @@ def trunk_outline(parameters: BodyParameters) -> Outline:
 
 def arm_outlines(human: HumanBody, handles: tuple[Vector, ...]) -> tuple[Outline, ...]:
     """Return what the arms occupy that hold given handles, from shoulder to hand, trunk axes."""
-    shoulders = SHOULDER_HEIGHT * human.parameters.height
     return tuple(
-        bar(arm.shoulder, rest, ARM_RADIUS, min(shoulders, handle[2]) - ARM_RADIUS)
+        bar(arm.shoulder, rest, ARM_RADIUS, min(arm.height, handle[2]) - ARM_RADIUS)
         for arm, rest, handle in zip(human.arms, human.rest, handles, strict=True)
     )
 

@@ -123,7 +123,7 @@ def _holding_arm(body: BodyParameters, side: str, arm: Arm) -> list[str]:
     upper, fore = arm.upper, arm.fore
     elbow, grip = (upper.length, 0.0, -upper.drop), (fore.length, 0.0, -fore.drop)
     wrist = (0.78 * grip[0], 0.0, 0.78 * grip[2])
-    shoulder = (*arm.shoulder, SHOULDER_HEIGHT * body.height)
+    shoulder = (*arm.shoulder, arm.height)
     return [
         _link(
             f"upper_arm_{side}",

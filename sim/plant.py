@@ -150,7 +150,11 @@ class Plant(Protocol):
         ...
 
     def reset(self, world: World, rng: np.random.Generator) -> PlantState:
-        """Put base and human at the world's start, at rest, and return the state there."""
+        """Put base and human at the world's start, at rest, and return the state there.
+
+        Its wrench is the standing one, before anybody pushes: what a load that is clamped on
+        weighs, 0 without one. The sensor is tared with it.
+        """
         ...
 
     def step(

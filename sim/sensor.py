@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .errors import InputError
 from .motion import Array
 from .sensor_channels import CHANNELS, FORCES, TORQUES, channels, coupling
 from .sensor_filter import LowPass, Offset, noise_deviation
@@ -18,7 +19,7 @@ __all__ = ["ForceSensor", "Reading", "SensorParameters"]
 
 Flags = NDArray[np.bool_]
 TARE_TIME = 0.5
-"""Time for which the unloaded sensor is averaged at the start of an episode, s."""
+"""Time for which the sensor, nobody pushing, is averaged before an episode starts, s."""
 
 
 class Reading(NamedTuple):
@@ -82,31 +83,74 @@ class ForceSensor:
         self._uneventful: dict[int, tuple[Flags, Flags]] = {}
         self.reset(np.random.default_rng(0))
 
-    def reset(self, rng: np.random.Generator) -> None:
-        """Start over, unloaded, with a generator of its own; tare if asked for."""
+    def reset(
+        self,
+        rng: np.random.Generator,
+        standing_wrench: Array | None = None,
+        mount: SensorMount = AT_HANDLE,
+    ) -> None:
+        """Start over with a generator of its own; tare, if asked for, with what hangs on it.
+
+        Parameters
+        ----------
+        rng : numpy.random.Generator
+        standing_wrench : ndarray, shape (6,), optional
+            Force (N) and torque about the handle (N m) on the base at rest, before anybody
+            pushes, base axes: of a load that is clamped on for good. None is an unloaded sensor.
+        mount : SensorMount
+            Where the sensor sits.
+
+        Raises
+        ------
+        InputError
+            If that alone is beyond the range of a channel.
+        """
         noise_rng, self._loss_rng = rng.spawn(2)
         if self._exact:
             return
         p = self._parameters
+        standing = np.zeros(CHANNELS)
+        if standing_wrench is not None and standing_wrench.any():
+            standing = in_sensor_frame(standing_wrench, mount)
+            self._require_range(standing)
         if self._low_pass is not None:
-            self._low_pass.reset()
+            mixed = standing.dot(self._coupling) if self._coupling is not None else standing
+            self._low_pass.reset(mixed)
         self._offset.reset(noise_rng)
-        # Samples are counted from the start of the tare: what an unloaded sensor reads then
-        # settles the filter, fills the delay and gives the zero.
-        unloaded = max(self._tare_samples, self._held, 1)
+        # Samples are counted from the start of the tare: what the sensor reads then, nobody
+        # pushing, fills the delay and gives the zero.
+        before_start = max(self._tare_samples, self._held, 1)
         self._count = 0
         self._saturated: list[int] = []
         self._zero, self._zeros = np.zeros(CHANNELS), {}
-        before = self._convert(np.zeros((unloaded, CHANNELS)))
+        before = self._convert(np.tile(standing, (before_start, 1)))
         if p.tare:
             self._zero = before[-self._tare_samples :].mean(axis=0)
             self._quantise(self._zero)
             self._zeros = {}
             before -= self._zero
-        self._history = before[unloaded - self._held :]
+        self._history = before[before_start - self._held :]
         self._last, self._last_saturated = before[-1], False
         self._lost: list[int] = []
         self._next_loss = self._count + self._gap() - 1
+
+    def _require_range(self, standing: Array) -> None:
+        """Refuse a load at rest, sensor axes, that leaves a channel nothing to read with."""
+        read = channels(self._parameters, "bias")
+        read += standing.dot(self._coupling) if self._coupling is not None else standing
+        worst = int((np.abs(read) / self._range).argmax())
+        if abs(read[worst]) <= self._range[worst]:
+            return
+        name, unit, axis = (
+            ("range", "N", "along ") if worst < 3 else ("torque_range", "N m", "about ")
+        )
+        axis += "xyz"[worst % 3]
+        raise InputError(
+            f"sensor.{name} = {self._range[worst]:g} {unit}: what is clamped on at rest already "
+            f"reads {read[worst]:.3g} {unit} {axis}, bias included; give a range well above "
+            f"{abs(read[worst]):.3g} {unit}, or let it carry well below "
+            f"{self._range[worst] / abs(read[worst]):.0%} of that (coupling.mass)"
+        )
 
     def measure(self, wrench_on_base: Array, mount: SensorMount = AT_HANDLE) -> Reading:
         """Return the readings for a block of samples.

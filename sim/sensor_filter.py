@@ -70,9 +70,11 @@ class LowPass:
         """Return the low-pass, or None where there is none that the samples can carry."""
         return cls(frequency, sample_rate, channels) if 0.0 < frequency < sample_rate / 2 else None
 
-    def reset(self) -> None:
-        """Come to rest at 0."""
+    def reset(self, level: Array | None = None) -> None:
+        """Come to rest at what has been coming in for long, shape (channels,), or else at 0."""
         self._state = np.zeros((ORDER, self._channels))
+        if level is not None:
+            self._state += signal.lfilter_zi(self.b, self.a)[:, None] * level
 
     def __call__(self, samples: Array) -> Array:
         """Return the filtered samples, a fresh array, shape (n, channels)."""

@@ -21,7 +21,7 @@ from .grip import GripParameters
 from .human_body import HumanBody
 from .motion import Array
 from .urdf import Rigid
-from .walker import WalkerParameters
+from .walker import WalkerParameters, legs_of
 
 GROWTH = 1e-6
 """Growth of an update that is rounding: where nothing holds a body, its motion just goes on."""
@@ -63,6 +63,7 @@ class Linear:
         human, (place_x, place_y, _) = bodies.human, bodies.place
         self.count = n = 6 + 2 * len(human.arms)
         self.step = step
+        self.body = human.parameters
         mass = np.zeros((n, n))
 
         def add(weight: float, inertia: float, lever: Array, turn: Array) -> None:
@@ -157,8 +158,9 @@ class Linear:
         lever = inverse @ held_still.T
         free = np.eye(n) - lever @ np.linalg.pinv(held_still @ lever) @ held_still
         late = round(walker.delay / (h * held))
-        legs_k = np.array([walker.stiffness] * 2 + [walker.yaw_stiffness])[:, None] * self._legs
-        legs_b = np.array([walker.damping] * 2 + [walker.yaw_damping])[:, None] * self._legs
+        gains = legs_of(walker, self.body)
+        legs_k = np.array([gains.stiffness] * 2 + [gains.yaw_stiffness])[:, None] * self._legs
+        legs_b = np.array([gains.damping] * 2 + [gains.yaw_damping])[:, None] * self._legs
         legs = -np.concatenate((legs_k, legs_b), axis=1)
         # The state: coordinates, rates, and what the legs decided and have not done yet.
         size = 2 * n + 3 * late

@@ -17,6 +17,10 @@ Frame = tuple[Array, Array]
 """Rotation (3, 3) and origin (3,), m."""
 
 
+LEAST_MASS = 1.0
+"""Of a robot that two can hold, kg (inferred): below it units or decimals are usually wrong."""
+
+
 @dataclass(frozen=True)
 class Rigid:
     """A robot with all its joints at zero, as one rigid body, in the axes of its root link.
@@ -90,16 +94,36 @@ def rotation(roll: float, pitch: float, yaw: float) -> Array:
     )
 
 
-def _inertia(element: ElementTree.Element) -> Array:
-    values = {k: float(v) for k, v in element.items()}
-    off = [values.get(key, 0.0) for key in ("ixy", "ixz", "iyz")]
-    return np.array(
-        [
-            [values.get("ixx", 0.0), off[0], off[1]],
-            [off[0], values.get("iyy", 0.0), off[2]],
-            [off[1], off[2], values.get("izz", 0.0)],
-        ]
-    )
+def _float(link: str, what: str, text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise InputError(f"robot: link {link!r} has {what} = {text!r}: not a number") from None
+
+
+def _inertia(link: str, element: ElementTree.Element) -> Array:
+    """Return a link's inertia in its own axes, kg m^2, shape (3, 3); zeros are those of a point."""
+    keys = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+    values = [_float(link, key, element.get(key, "0")) for key in keys]
+    xx, yy, zz, xy, xz, yz = values
+    matrix = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    if not any(values):
+        return matrix
+    for key, value in zip(keys, values, strict=True):
+        if not math.isfinite(value) or (value <= 0.0 and key in keys[:3]):
+            more = "finite" if not math.isfinite(value) else "above 0"
+            raise InputError(f"robot: link {link!r} has {key} = {value:g} kg m^2: must be {more}")
+    least, middle, most = (float(moment) for moment in np.linalg.eigvalsh(matrix))
+    moments = f"principal moments {least:.3g}, {middle:.3g}, {most:.3g} kg m^2"
+    if least <= 0.0:
+        raise InputError(f"robot: link {link!r} has {moments}: all three must be above 0")
+    # Thin plates meet it with equality, which files give in few digits.
+    if most > 1.01 * (least + middle):
+        raise InputError(
+            f"robot: link {link!r} has {moments}: no body can have more about one axis than "
+            "about the other two together"
+        )
+    return matrix
 
 
 def link_frames(root: ElementTree.Element) -> dict[str, Frame]:
@@ -137,24 +161,42 @@ def lump(root: ElementTree.Element) -> Rigid:
     Raises
     ------
     InputError
-        If it has no mass, or its joints do not form one tree.
+        If its mass is less than `LEAST_MASS`, a solid link has none, an inertia is none that a
+        body can have, or its joints do not form one tree.
     """
     frames = link_frames(root)
     parts = []
     for link in root.iter("link"):
-        inertial = link.find("inertial")
-        mass = inertial.find("mass") if inertial is not None else None
-        if inertial is None or mass is None or float(mass.get("value", 0.0)) <= 0.0:
+        name, inertial = link.get("name", ""), link.find("inertial")
+        found = inertial.find("mass") if inertial is not None else None
+        mass = _float(name, "mass", found.get("value", "0")) if found is not None else 0.0
+        if not 0.0 <= mass < math.inf:
+            raise InputError(f"robot: link {name!r} has mass = {mass:g} kg: it must be at least 0")
+        if inertial is None or mass == 0.0:
+            if link.find("collision") is not None:
+                raise InputError(
+                    f"robot: link {name!r} has collision shapes but no mass; give it <inertial> "
+                    "with <mass> and <inertia>, or take the shapes out"
+                )
             continue
-        turned, centre = within(frames[link.get("name", "")], origin(inertial))
+        turned, centre = within(frames[name], origin(inertial))
         element = inertial.find("inertia")
-        inertia = turned @ _inertia(element) @ turned.T if element is not None else np.zeros((3, 3))
-        parts.append((float(mass.get("value", 0.0)), centre, inertia[2, 2]))
+        inertia = np.zeros((3, 3))  # of a point
+        if element is not None:
+            inertia = turned @ _inertia(name, element) @ turned.T
+        parts.append((mass, centre, inertia[2, 2]))
     total = sum(mass for mass, _, _ in parts)
     if total <= 0.0:
         raise InputError("robot: its links have no mass")
+    if total < LEAST_MASS:
+        raise InputError(
+            f"robot: its links weigh {total:.3g} kg together: it must be {LEAST_MASS:g} kg or "
+            "more (URDF counts in kg)"
+        )
     centre = sum((mass * place for mass, place, _ in parts), np.zeros(3)) / total
     yaw = sum(izz + m * float(np.sum((p - centre)[:2] ** 2)) for m, p, izz in parts)
+    if not yaw > 0.0:
+        raise InputError("robot: nothing resists a turn about the vertical; give links <inertia>")
     places = {name: _vector(place) for name, (_, place) in frames.items()}
     return Rigid(total, _vector(centre), float(yaw), places)
 

@@ -9,8 +9,10 @@ from __future__ import annotations
 import math
 from collections import deque
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
+from .anthropometry import BodyParameters, yaw_inertia
+from .arm import end_torque
 from .gait import Gait
 from .human_body import HumanBody
 from .parameters import Range, require_ranges
@@ -33,9 +35,11 @@ class WalkerParameters:
     Parameters
     ----------
     stiffness, damping : float
-        Of the legs that keep the trunk's place beside the base, N/m and N s/m.
+        Of the legs that keep the trunk's place beside the base, N/m and N s/m. They are those of
+        a person of 1.75 m and 70 kg; anybody else's go with their mass.
     yaw_stiffness, yaw_damping : float
-        Of the trunk's heading against the base's, N m/rad and N m s/rad.
+        Of the trunk's heading against the base's, N m/rad and N m s/rad; likewise, with the
+        moment of inertia about the vertical. So everybody moves alike (`legs_of`).
     delay : float
         Delay of both, s: about that of a long-latency stretch reflex.
     hand_stiffness, hand_damping : float
@@ -64,13 +68,37 @@ class WalkerParameters:
         require_ranges(self, RANGES)
 
 
+class Legs(NamedTuple):
+    """What keeps the trunk's place and heading: N/m, N s/m, N m/rad, N m s/rad."""
+
+    stiffness: float
+    damping: float
+    yaw_stiffness: float
+    yaw_damping: float
+
+
+def legs_of(parameters: WalkerParameters, body: BodyParameters) -> Legs:
+    """Return the legs' gains of a body: with its mass and moment of inertia (inferred).
+
+    The delay is everybody's, so gains that did not shrink with the body would swing a child up.
+    """
+    usual = BodyParameters()
+    weight = body.mass / usual.mass
+    turn = yaw_inertia(body) / yaw_inertia(usual)
+    p = parameters
+    return Legs(
+        weight * p.stiffness, weight * p.damping, turn * p.yaw_stiffness, turn * p.yaw_damping
+    )
+
+
 class Walker:
     """Joint forces of the human for one physics step.
 
     Legs: a delayed spring and damper towards the place beside the base, plus the force that
     turns the walking body with the base (m omega x v), plus the reaction to the intended push,
     so that a steady push does not move the trunk, plus what the sway of the gait takes (m a).
-    Arms: J^T (intended force + posture spring).
+    Arms: J^T (intended force + posture spring), and soft tissue at the ends of a joint's range
+    (`cowalk.sim.arm.end_torque`).
 
     Parameters
     ----------
@@ -94,7 +122,7 @@ class Walker:
         mass: float,
         step: float,
     ) -> None:
-        self._parameters = parameters
+        self._gains = legs_of(parameters, body.parameters)
         self._arms = tuple(
             (
                 3 + 2 * index,
@@ -102,6 +130,9 @@ class Walker:
                 arm.upper.length,
                 arm.fore.length,
                 *rest,
+                *arm.free[0],
+                *arm.free[1],
+                arm.end_stiffness,
             )
             for index, (arm, rest) in enumerate(zip(body.arms, body.rest, strict=True))
         )
@@ -155,7 +186,7 @@ class Walker:
         list of float
             N, N, N m, N m, ...
         """
-        p, joints = self._parameters, self._joints
+        p, joints = self._gains, self._joints
         base_x, base_y, base_yaw, base_vx, base_vy, base_rate = base
         vx, vy, rate = human[joints], human[joints + 1], human[joints + 2]
 
@@ -195,10 +226,25 @@ class Walker:
         pushed_x = share * (lean_cos * push_x + lean_sin * push_y)
         pushed_y = share * (lean_cos * push_y - lean_sin * push_x)
         forces = [cos * legs_x - sin * legs_y, sin * legs_x + cos * legs_y, 0.0]
-        for joint, shoulder_x, shoulder_y, upper, fore, rest_x, rest_y in self._arms:
-            shoulder, bent = human[joint], human[joint] + human[joint + 1]
+        for (
+            joint,
+            shoulder_x,
+            shoulder_y,
+            upper,
+            fore,
+            rest_x,
+            rest_y,
+            shoulder_low,
+            shoulder_high,
+            elbow_low,
+            elbow_high,
+            end_stiffness,
+        ) in self._arms:
+            shoulder, elbow = human[joint], human[joint + 1]
+            bent = shoulder + elbow
             shoulder_rate = human[joints + joint]
-            bent_rate = shoulder_rate + human[joints + joint + 1]
+            elbow_rate = human[joints + joint + 1]
+            bent_rate = shoulder_rate + elbow_rate
             arm_x, arm_y = upper * math.cos(shoulder), upper * math.sin(shoulder)
             fore_x, fore_y = fore * math.cos(bent), fore * math.sin(bent)
             hand_x, hand_y = shoulder_x + arm_x + fore_x, shoulder_y + arm_y + fore_y
@@ -210,7 +256,14 @@ class Walker:
                 pushed_y + k * (rest_y - hand_y) - b * (arm_x * shoulder_rate + fore_x * bent_rate)
             )
             at_elbow = fore_x * own_y - fore_y * own_x
-            forces.append(arm_x * own_y - arm_y * own_x + at_elbow)
+            at_shoulder = arm_x * own_y - arm_y * own_x + at_elbow
+            if not shoulder_low < shoulder < shoulder_high:
+                end = shoulder_high if shoulder > shoulder_low else shoulder_low
+                at_shoulder += end_torque(shoulder - end, shoulder_rate, end_stiffness)
+            if not elbow_low < elbow < elbow_high:
+                end = elbow_high if elbow > elbow_low else elbow_low
+                at_elbow += end_torque(elbow - end, elbow_rate, end_stiffness)
+            forces.append(at_shoulder)
             forces.append(at_elbow)
         forces[2] = legs_yaw
         return forces

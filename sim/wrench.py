@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
+from .errors import InputError
 from .motion import Array
 from .urdf import rotation
+
+FARTHEST = 2.0
+"""Of a sensor from the handle, m: beyond the size of what two people walk with (inferred)."""
 
 
 @dataclass(frozen=True)
@@ -21,10 +26,25 @@ class SensorMount:
         Origin of the sensor's frame from the handle, base axes, m.
     rpy : (roll, pitch, yaw)
         Its attitude, fixed-axis angles in rad: what turns base axes into sensor axes.
+
+    Raises
+    ------
+    InputError
+        If it is not three numbers each, or farther from the handle than `FARTHEST`.
     """
 
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
     rpy: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        for name in ("position", "rpy"):
+            value = getattr(self, name)
+            if len(value) != 3 or not all(math.isfinite(item) for item in value):
+                raise InputError(f"{name} = {value}: must be three finite numbers")
+        if math.hypot(*self.position) > FARTHEST:
+            raise InputError(
+                f"position = {self.position} m: must lie within {FARTHEST:g} m of the handle"
+            )
 
     # Read in every control step, so worked out once.
 

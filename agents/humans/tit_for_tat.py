@@ -15,18 +15,18 @@ from .elementwise import Elementwise, Value, components
 
 @dataclass(kw_only=True)
 class TitForTatHuman(DemandingHuman):
-    """Stubbornness mirrors the concession that the automation just made.
+    """Stubbornness mirrors the concession that the automation has made in this disagreement.
 
-    If the automation takes a share c of the disagreement away, the human insists on a share c
-    less of what is left; if it moves off again, on as much more:
+    What the automation has conceded is how far it moved towards the present wish since the
+    disagreement began, as a share of what they would disagree about had it stayed where it was:
 
-        s_k = s_{k-1} (1 - c_k),  1 - c_k = |p_H - p_k| / |p_H - p_{k-1}|,
+        s = s_initial (1 - c),  1 - c = |p_H - p| / |p_H - p_start|, at most 1.
 
-    capped at 1 where it becomes a force, so that a withdrawal taken back leaves no trace.
-
-    The relative tit-for-tat of Faratin, Sierra and Jennings (1998), after Axelrod (1984), and
-    the paper's own automation seen from the other side. A wish that moves is no concession:
-    both distances are to the present wish.
+    As long as the wish stands still that is the relative tit-for-tat of Faratin, Sierra and
+    Jennings (1998), turn by turn, s_k = s_{k-1} |p_H - p_k| / |p_H - p_{k-1}|, bounded to the
+    tactic's range; after Axelrod (1984), and the paper's own automation seen from the other
+    side. A wish that moves is no concession: both distances are to the present wish. Once they
+    agree, or disagree the other way round, the next disagreement begins anew at s_initial.
 
     Parameters
     ----------
@@ -34,8 +34,7 @@ class TitForTatHuman(DemandingHuman):
         Stubbornness in v and in omega before any concession, in (0, 1]. Insisting fully is
         inferred.
     tolerance : float
-        Disagreement, as a share of the upper bound, below which nothing counts as conceded or
-        withdrawn. Inferred.
+        Disagreement, as a share of the upper bound, up to which they agree. Inferred.
     force_max, gain, intention
         See `DemandingHuman`.
 
@@ -46,7 +45,7 @@ class TitForTatHuman(DemandingHuman):
     """
 
     initial: Pair = (1.0, 1.0)
-    tolerance: float = 0.05
+    tolerance: float = 0.01
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -56,23 +55,23 @@ class TitForTatHuman(DemandingHuman):
     def reset(self, rng: np.random.Generator, situation: Situation) -> None:
         """See `Human.reset`."""
         super().reset(rng, situation)
-        self._level: list[Value] = list(self.initial)
-        self._before: tuple[Value, Value] | None = None
+        self._start: list[Value] | None = None
+        self._before: list[Value] = [0.0, 0.0]
 
     def act(self, observation: Observation) -> Array:
         """See `Human.act`."""
-        if self._before is None:
-            self._before = components(observation["twist"])
-        force = super().act(observation)
-        self._before = self._executed
-        return force
+        if self._start is None:
+            self._start = list(components(observation["twist"]))
+        return super().act(observation)
 
     def stubbornness(self, m: Elementwise, i: int, disagreement: Value) -> Value:
         """See `DemandingHuman.stubbornness`."""
-        assert self._before is not None
-        moved = (self._executed[i] - self._before[i]) / self._upper[i]
-        left = m.maximum(abs(disagreement), self.tolerance)
-        before = m.maximum(abs(disagreement + moved), self.tolerance)
-        # Kept as it is beyond 1, so that a withdrawal and its return cancel out.
-        self._level[i] = self._level[i] * left / before
-        return m.minimum(self._level[i], 1.0)
+        assert self._start is not None
+        executed = self._executed[i]
+        agree = abs(disagreement) <= self.tolerance
+        anew = agree | (disagreement * self._before[i] < 0.0)
+        self._start[i] = start = m.where(anew, executed, self._start[i])
+        self._before[i] = disagreement
+        at_stake = abs(disagreement + (executed - start) / self._upper[i])
+        left = m.where(anew, 1.0, abs(disagreement) / m.maximum(at_stake, self.tolerance))
+        return m.minimum(self.initial[i] * left, 1.0)

@@ -14,6 +14,7 @@ from cowalk.agents.humans.slacking import SlackingHuman
 from cowalk.agents.humans.steady import SteadyHuman
 from cowalk.agents.humans.tit_for_tat import TitForTatHuman
 from cowalk.sim.errors import InputError
+from cowalk.sim.motion import arc_displacement, compose
 
 NO_RNG = np.random.default_rng(0)
 
@@ -127,6 +128,39 @@ def test_a_wish_that_moves_is_no_concession(situation, observe):
     for offset in (0.0, 0.3, -0.2):
         human.act(observe(twist=(0.8, 0.2), pose=(0.0, offset, 0.0)))
         assert human.truth().stubbornness[1] == pytest.approx(0.8)
+
+
+def weave(human, situation, observe, amplitude, period, cycles=3):
+    """Return the stubbornness in omega, cycle by cycle, of a human whom the base weaves about."""
+    human.reset(NO_RNG, situation)
+    steps = round(period / situation.period)
+    pose, levels = np.zeros(3), []
+    for step in range(cycles * steps):
+        omega = amplitude * np.cos(2.0 * np.pi * step / steps)
+        human.act(observe(twist=(0.8, omega), pose=tuple(pose)))
+        levels.append(human.truth().stubbornness[1])
+        pose = compose(pose, arc_displacement(np.array([0.8, omega]), situation.period))
+    return np.reshape(levels, (cycles, steps))
+
+
+@pytest.mark.parametrize(("amplitude", "period"), [(0.1, 6.0), (0.15, 10.0)])
+def test_a_wish_and_a_twist_that_both_weave_leave_no_trace(amplitude, period, situation, observe):
+    cycles = weave(TitForTatHuman(initial=(0.8, 0.8)), situation, observe, amplitude, period)
+    assert (cycles >= 0.0).all()
+    assert (cycles <= 1.0).all()
+    # Nothing absorbs and nothing winds up: each cycle ranges as the one before.
+    assert (cycles.max(axis=1) >= 0.8).all()
+    assert (cycles.min(axis=1) <= 0.4).all()
+
+
+def test_agreement_ends_what_was_conceded_and_withdrawn(situation, observe):
+    human = TitForTatHuman(initial=(0.8, 0.8))
+    omegas = [0.4, 0.1, 0.0, 0.3, 0.15, -0.2]
+    levels = levels_against(human, situation, observe, omegas)
+    # Three quarters conceded; agreed; a new one, from where they agreed; the other way round.
+    assert levels[1] == pytest.approx(0.2)
+    assert levels[2] == levels[5] == 0.8
+    assert levels[3] == 1.0
 
 
 def test_effort_decays_geometrically_without_error(situation, observe):

@@ -14,7 +14,7 @@ from cowalk.sim.anthropometry import (
     segment,
     yaw_inertia,
 )
-from cowalk.sim.arm import ELBOW_RANGE, SHOULDER_RANGE, arm_of, links
+from cowalk.sim.arm import ELBOW_FREE, SHOULDER_FREE, arm_of, links
 from cowalk.sim.errors import InputError
 from cowalk.sim.human_body import human_body
 
@@ -64,8 +64,8 @@ def test_the_grip_is_at_the_handles_height(body, height):
 
 @pytest.mark.parametrize("side", ["left", "right"])
 @given(
-    elbow=st.floats(ELBOW_RANGE[0] + 0.05, ELBOW_RANGE[1] - 0.05),
-    shoulder=st.floats(SHOULDER_RANGE[0] + 0.05, SHOULDER_RANGE[1] - 0.05),
+    elbow=st.floats(ELBOW_FREE[0] + 0.05, ELBOW_FREE[1] - 0.05),
+    shoulder=st.floats(SHOULDER_FREE[0] + 0.05, SHOULDER_FREE[1] - 0.05),
 )
 def test_angles_put_the_hand_there(side, shoulder, elbow):
     arm = arm_of(BodyParameters(), side, 1.04)
@@ -117,4 +117,4 @@ def test_people_of_any_size_hold_on_far_from_their_joints_limits(hand, height):
     body = human_body(BodyParameters(height, hand=hand), handles if hand == "both" else handles[:1])
     shoulders, elbows = np.abs(body.posture[::2]), np.abs(body.posture[1::2])
     assert ((elbows > 1.7) & (elbows < 2.2)).all()
-    assert (shoulders < SHOULDER_RANGE[1] - 0.4).all()
+    assert (shoulders < SHOULDER_FREE[1] - 0.4).all()

@@ -121,7 +121,7 @@ def test_the_free_arm_gives_way_by_force_over_stiffness(stiffness, direction):
 def test_joint_limits_hold(client):
     human, chain = body_in(client)
     lock(client, chain, 0, 1, 2)
-    for torque, limits in ((0.5, (2.70, -0.02)), (-0.5, (-0.80, -2.55))):
+    for torque, limits in ((0.5, (2.95, -0.02)), (-0.5, (-1.05, -2.80))):
         chain.put((0.0, 0.0, 0.0, *human.posture))
         for _ in range(960):
             engine.setJointMotorControlArray(

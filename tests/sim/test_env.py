@@ -239,3 +239,79 @@ def test_rates_that_do_not_divide_are_refused_with_both_numbers(rates, named):
 def test_unknown_plant_is_refused_with_what_is_known():
     with pytest.raises(InputError, match=r"'bulet'; did you mean 'bullet'\?"):
         parallel_env(plant="bulet")
+
+
+def test_a_sensor_is_known_by_the_name_of_its_preset():
+    named, built = (
+        parallel_env(sensor=sensor, plant="unicycle", duration=1.0)
+        for sensor in ("industrial", sensor_preset("industrial"))
+    )
+    assert episode(named, seed=1).tobytes() == episode(built, seed=1).tobytes()
+    with pytest.raises(InputError, match=r"preset 'industral'; did you mean 'industrial'\?"):
+        parallel_env(sensor="industral")
+
+
+@pytest.mark.parametrize(
+    ("plant", "named"),
+    [
+        ("bullet", r"plant_parameters.bdy: unknown key; did you mean 'body'\? Known: drive, body"),
+        ("unicycle", r"plant_parameters.bdy: unknown key; 'unicycle' takes none"),
+    ],
+)
+def test_unknown_parameters_of_a_plant_are_refused(plant, named):
+    with pytest.raises(InputError, match=named):
+        parallel_env(plant=plant, plant_parameters={"bdy": {}})
+
+
+@pytest.mark.parametrize(
+    ("seats", "named"),
+    [
+        (("human",), "step: 'automation' has no action; give one to each of human and automation"),
+        (("human", "robot"), "step: 'automation' has no action, 'robot' is no seat;"),
+        (("human", "automation", "dog"), "step: 'dog' is no seat;"),
+    ],
+)
+def test_every_seat_and_no_other_acts(seats, named):
+    env = parallel_env(plant="unicycle")
+    env.reset(seed=0)
+    with pytest.raises(SimulationError, match=named):
+        env.step(dict.fromkeys(seats, np.zeros(2)))
+
+
+@pytest.mark.parametrize(
+    ("mount", "named"),
+    [
+        ({"position": [0.0, 0.0, 100.0]}, r"mount.position = \(0.0, 0.0, 100.0\) m: .* within 2 m"),
+        ({"position": [0.0, math.nan, 0.0]}, "mount.position = .*: must be three finite numbers"),
+        ({"rpy": [0.0, 1.0]}, "mount.rpy = .*: must be three finite numbers"),
+    ],
+)
+def test_a_sensor_sits_near_the_handle(mount, named):
+    with pytest.raises(InputError, match=named):
+        parallel_env(plant_parameters={"mount": mount})
+
+
+def test_the_tare_of_a_load_on_wheels_moves_no_body_and_repeats():
+    """What is read before a push is no more than the sensor's own error, episode by episode."""
+    parameters = {"drive": {"kind": "wheels"}, "coupling": {"kind": "stretcher"}}
+    env = parallel_env(sensor="industrial", plant_parameters=parameters)
+    still = {"human": np.zeros(2), "automation": np.zeros(2)}
+    read = []
+    for _ in range(2):
+        env.reset(seed=2)
+        weight = env.plant_state.wrench_on_base[0]
+        assert weight[2] == pytest.approx(-8.0 * 9.81, rel=1e-3)
+        assert env.measured_force == pytest.approx(np.zeros((12, 2)), abs=0.5)
+        samples = []
+        for _ in range(40):
+            env.step(still)
+            samples.append(env.sensor_reading.wrench)
+            settled = env.plant_state.wrench_on_base
+        np.testing.assert_allclose(settled[-1], weight, atol=0.01)
+        read.append(np.concatenate(samples))
+    env.close()
+    assert read[0].tobytes() == read[1].tobytes()
+    # The first 0.1 s is the load landing. Noise 0.1 N a sample, 0.02 N after averaging tare and
+    # 1.9 s of samples 480 times at a bandwidth of 44 Hz; a step of 0.01 N.
+    assert np.abs(read[0][24:].mean(axis=0)[:3]).max() < 0.06
+    assert np.abs(read[0][24:].mean(axis=0)[3:]).max() < 0.006

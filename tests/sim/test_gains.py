@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from cowalk.sim import bullet_pair
+from cowalk.sim.anthropometry import BodyParameters
 from cowalk.sim.bullet import BulletPlant
 from cowalk.sim.errors import InputError, SimulationError
 from cowalk.sim.grip import GripParameters
@@ -100,7 +101,7 @@ def test_one_mass_meets_the_closed_form(stiffness):
     """h^2 k/m + 2 h b/m < 4 for a mass on spring and damper, forces renewed at every step."""
     mass, step = 2.0, 0.01
     linear = object.__new__(Linear)
-    linear.count, linear.step = 6, step
+    linear.count, linear.step, linear.body = 6, step, BodyParameters()
     linear._inverse = np.eye(6) / mass
     linear._drive, linear._legs, linear._still = np.zeros((6, 6)), np.zeros((3, 6)), np.eye(3, 6)
     own = np.eye(6)[3:5]

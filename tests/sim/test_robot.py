@@ -87,6 +87,43 @@ def test_a_file_that_is_no_robot(tmp_path, text, named):
         robot_of(RobotParameters(str(path)), "left", "handle")
 
 
+CHASSIS = 'ixx="1" iyy="1" izz="2" ixy="0" ixz="0" iyz="0"'
+HEAVY = '<mass value="20"/>'
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "named"),
+    [
+        (CHASSIS, CHASSIS.replace('izz="2"', 'izz="-2"'), "izz = -2 kg m.2: must be above 0"),
+        (CHASSIS, CHASSIS.replace('izz="2"', 'izz="nan"'), "izz = nan kg m.2: must be finite"),
+        (CHASSIS, CHASSIS.replace('izz="2"', 'izz="two"'), "izz = 'two': not a number"),
+        (CHASSIS, CHASSIS.replace('ixy="0"', 'ixy="1.5"'), "moments -0.5, 2, 2.5 .* above 0"),
+        (CHASSIS, CHASSIS.replace('izz="2"', 'izz="3"'), "moments 1, 1, 3 kg m.2: no body can"),
+        (HEAVY, '<mass value="-20"/>', "mass = -20 kg"),
+        (HEAVY, '<mass value="inf"/>', "mass = inf kg"),
+        (HEAVY, '<mass value="20 kg"/>', "mass = '20 kg': not a number"),
+    ],
+)
+def test_masses_and_inertias_that_no_body_has(old, new, named):
+    assert old in OWN
+    with pytest.raises(InputError, match=f"link 'chassis' has .*{named}"):
+        lump(ElementTree.fromstring(OWN.replace(old, new)))
+
+
+def test_what_is_solid_must_weigh_something():
+    solid, weightless = OWN.replace("<visual>", "<collision/><visual>"), OWN.replace(HEAVY, "")
+    assert lump(ElementTree.fromstring(solid)).mass == 25.0
+    assert lump(ElementTree.fromstring(weightless)).mass == 5.0
+    with pytest.raises(InputError, match="link 'chassis' has collision shapes but no mass"):
+        lump(ElementTree.fromstring(solid.replace(HEAVY, "")))
+
+
+def test_a_robot_in_grams_is_refused():
+    light = OWN.replace('value="20"', 'value="0.02"').replace('value="5"', 'value="0.005"')
+    with pytest.raises(InputError, match=r"weigh 0.025 kg together: it must be 1 kg or more"):
+        lump(ElementTree.fromstring(light))
+
+
 def test_a_missing_handle_names_the_links(own):
     with pytest.raises(InputError, match=r"no link 'gripp'; did you mean 'grip'\? Known: chassis"):
         robot_of(RobotParameters(str(own), "gripp"), "left", "handle")

@@ -201,6 +201,54 @@ def test_bias_eats_into_the_range():
 MOUNT = SensorMount((0.05, -0.02, -0.1), (0.3, -0.2, 1.2))
 
 
+STANDING = np.array([0.5, -1.0, -78.0, 1.4, 9.0, 0.2])
+
+
+@pytest.mark.parametrize("mount", [SensorMount(), MOUNT], ids=["at handle", "mounted"])
+@pytest.mark.parametrize("name", PRESETS)
+def test_the_tare_takes_off_what_is_clamped_on(name, mount):
+    """As an operator zeroes a sensor with its tool mounted: only what is added later is read."""
+    push = np.tile([4.0, -2.0, 0.0, 0.0, 0.0, 0.5], (480, 1))
+    bare, laden = (ForceSensor(sensor_preset(name), RATE) for _ in range(2))
+    bare.reset(np.random.default_rng(3))
+    laden.reset(np.random.default_rng(3), STANDING, mount)
+    expected, read = bare.measure(push, mount), laden.measure(STANDING + push, mount)
+    # The same noise, so apart by no more than roundings of reading and tare.
+    step = np.repeat([sensor_preset(name).resolution, sensor_preset(name).torque_resolution], 3)
+    assert (np.abs(read.wrench - expected.wrench) <= 2.0 * step + 1e-9).all()
+    assert not read.saturated.any()
+
+
+def test_without_a_tare_what_is_clamped_on_is_read_from_the_first_sample_on():
+    made = ForceSensor(SensorParameters(low_pass=10.0, latency=0.05, cross_talk=0.01), RATE)
+    made.reset(np.random.default_rng(0), STANDING)
+    expected = STANDING @ coupling(SensorParameters(cross_talk=0.01))
+    read = made.measure(np.tile(STANDING, (24, 1))).wrench
+    np.testing.assert_allclose(read, np.tile(expected, (24, 1)), rtol=1e-9)
+
+
+def test_unloaded_is_the_same_to_the_bit_whether_said_or_not():
+    silent, said = (ForceSensor(sensor_preset("industrial"), RATE) for _ in range(2))
+    silent.reset(np.random.default_rng(3))
+    said.reset(np.random.default_rng(3), np.zeros(6), MOUNT)
+    pairs = zip(silent.measure(LOAD[:480], MOUNT), said.measure(LOAD[:480], MOUNT), strict=True)
+    assert all(one.tobytes() == other.tobytes() for one, other in pairs)
+
+
+@pytest.mark.parametrize(
+    ("load", "named"),
+    [
+        ([0, 0, -78, 0, 25, 0], r"sensor.torque_range = 20 N m: .* reads 25.* N m about y, .*80%"),
+        ([0, 0, -700, 0, 0, 0], r"sensor.range = 500 N: .* reads -698 N along z, .*72%"),
+    ],
+)
+def test_what_is_clamped_on_must_leave_something_to_read_with(load, named):
+    with pytest.raises(InputError, match=named):
+        ForceSensor(sensor_preset("laboratory")).reset(
+            np.random.default_rng(0), np.array(load, dtype=float)
+        )
+
+
 def test_the_sensor_works_in_its_own_axes():
     seen = in_sensor_frame(LOAD, MOUNT)
     exact = sensor().measure(LOAD, MOUNT)
