@@ -35,16 +35,16 @@ def one_line(error: BaseException) -> str:
     return f"{type(error).__name__}: {' '.join(str(error).split())}".rstrip(": ")
 
 
-def call_faults(part: Any, methods: dict[str, tuple[int, str]]) -> Iterator[str]:
+def call_faults(part: Any, methods: dict[str, tuple[tuple[str, ...], str]]) -> Iterator[str]:
     """Yield which methods are missing, or cannot be called as the runner calls them.
 
     Parameters
     ----------
     part : object
-    methods : dict of str to (int, str)
-        Number of arguments, and how the method is declared.
+    methods : dict of str to ((str, ...), str)
+        Arguments, and how the method is declared.
     """
-    for name, (count, how) in methods.items():
+    for name, (arguments, how) in methods.items():
         method = getattr(part, name, None)
         if not callable(method):
             yield f"there is no method {name!r}: add {how}"
@@ -54,9 +54,10 @@ def call_faults(part: Any, methods: dict[str, tuple[int, str]]) -> Iterator[str]
         except (TypeError, ValueError):  # compiled: nothing is known of it
             continue
         try:
-            signature.bind(*[None] * count)
+            signature.bind(*arguments)
         except TypeError:
-            yield f"{name}{signature} cannot be called with {count} arguments: declare {how}"
+            call = f"{name}({', '.join(arguments)})"
+            yield f"{name}{signature} cannot be called as {call}: declare {how}"
 
 
 def access_hint(error: Exception) -> str:

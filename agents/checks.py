@@ -109,9 +109,9 @@ def _problems(part: Any, seat: str, report: str, outputs: Faults, reports: Fault
             what = one_line(error)
             return [f"it cannot be built without arguments ({what}): check an instance of it"]
     methods = {
-        "reset": (2, "reset(self, rng, situation)"),
-        "act": (1, f"act(self, observation), to {_OUTPUT[seat]}"),
-        report: (0, f"{report}(self), to return a {report.capitalize()}"),
+        "reset": (("rng", "situation"), "reset(self, rng, situation)"),
+        "act": (("observation",), f"act(self, observation), to {_OUTPUT[seat]}"),
+        report: ((), f"{report}(self), to return a {report.capitalize()}"),
     }
     problems = list(call_faults(part, methods))
     if problems:

@@ -76,7 +76,8 @@ def read_recording(
     values, used = {}, {}
     for role, name in names.items():
         quantity = "time" if role == "time" else "force"
-        suited = [other for other in table if suits(path, quantity, other, units, stated)]
+        free = table.keys() - (set(names.values()) - {name})
+        suited = [other for other in sorted(free) if suits(path, quantity, other, units, stated)]
         column = _column(path, name, table, suited)
         used[role] = unit_of(path, quantity, name, units, stated)
         values[role] = _numbers(path, name, column, first_row)

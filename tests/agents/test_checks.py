@@ -266,7 +266,7 @@ FAULTS = {
     CountsResets: "two walks after resets with equal generators differ",
     Kilonewtons: r"at most 0.0012 N, too faint .* return N; is it in kN\?",
     AlwaysTheSame: "the generator self.rng starts alike whatever rng reset is given",
-    ResetAlone: r"declare reset\(self, rng, situation\)",
+    ResetAlone: r"cannot be called as reset\(rng, situation\): declare reset\(self, rng, sit",
     ActAlone: r"declare act\(self, observation\), to return the hand force",
     ByAttribute: r'an observation is a dict: observation\["twist"\]',
     TwoLines: "act fails at step 0: ValueError: one thing and another$",

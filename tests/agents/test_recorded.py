@@ -165,7 +165,7 @@ def test_a_column_in_another_unit_is_not_proposed(tmp_path):
     file = write_csv(tmp_path / "r.csv", RISING, np.ones(10), np.ones(10), "t_s,fx_nm,fy_n")
     with pytest.raises(InputError, match=r"no column 'fx_n'; ") as refused:
         read_recording(file, Columns(), Units())
-    assert "did you mean 'fx_nm'" not in str(refused.value)
+    assert "did you mean" not in str(refused.value)  # neither fx_nm nor fy_n
 
 
 def test_missing_rows_are_refused_or_held(tmp_path):
