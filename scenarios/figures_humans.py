@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -163,11 +164,8 @@ def _settled_panel(axis: Axes, words: Axes, human: Human) -> dict[str, list[floa
     }
     meeting, rests = {}, []
     for name, (i, label, line, mark) in styles.items():
-        points, jumps = fixed_points(
-            CONCESSIONS,
-            settled[:, i],
-            lambda c, i=i: float(settled_stubbornness(human, np.array([c]))[0, i]),
-        )
+        settle = partial(_settled_share, human, i)
+        points, jumps = fixed_points(CONCESSIONS, settled[:, i], settle)
         meeting[name] = points
         breaks = np.searchsorted(CONCESSIONS, jumps)
         axis.plot(
@@ -189,3 +187,7 @@ def _settled_panel(axis: Axes, words: Axes, human: Human) -> dict[str, list[floa
     words.text(0.03, 0.02, "\n".join((heading, *rests)), linespacing=1.5)
     legend_above(axis)
     return meeting
+
+
+def _settled_share(human: Human, i: int, concession: float) -> float:
+    return float(settled_stubbornness(human, np.array([concession]))[0, i])

@@ -23,9 +23,9 @@ class EscalatingHuman(DemandingHuman):
 
     u = min(|disagreement|/tolerance, 1) being how unresolved it is. Pairs of people told to
     return each other's force escalate by 38 % a turn, from 0.25 N by 3.2 N over eight turns
-    (Shergill et al. 2003, at the fingertip). In a lasting disagreement this human's force does. Corrections of a
-    robot arm show longer persistence rather than harder pushes; growth = 0 with a long hold is
-    that.
+    (Shergill et al. 2003, at the fingertip). In a lasting disagreement this human's force does.
+    Corrections of a robot arm show longer persistence rather than harder pushes; growth = 0
+    with a long hold is that.
 
     Parameters
     ----------
