@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -34,9 +35,9 @@ ROBOTS: dict[str, tuple[float, dict[str, Any]]] = {
 WIDTH, HEIGHT, DPI = 10.0, 6.2, 140
 STAGE = (
     "The robot wants straight on at 0.6 m/s, 0.6 m to the right of where the human wants to walk "
-    "at 0.8 m/s; it concedes a fixed share of the difference.\nRight: kept at that offset until "
-    "settled, at most 90 s; “paper” is concession = stubbornness, where the paper's automation "
-    "comes to rest."
+    "at 0.8 m/s; it concedes a fixed share of the difference.\nLower right: kept at that offset "
+    "until settled, at most 90 s; “paper” is concession = stubbornness, where the paper's "
+    "automation rests."
 )
 CONCESSIONS = np.linspace(0.0, 1.0, 21)
 LEAST_FORCE = 1.0
@@ -63,15 +64,19 @@ def draw_human(human: Human, bare: Human | None, title: str, file: Path) -> dict
             if bare is not None:
                 unspoilt = answer(bare, concession)
                 _curves(panels, unspoilt, {"color": MUTED, "lw": 0.8, "ls": style["ls"]})
-            _curves(panels, answer(human, concession), style | {"label": f"robot {name}"})
+            _curves(panels, answer(human, concession), style | {"label": name})
         for row, (force, share) in enumerate((("sideways", "ω"), ("forward", "v"))):
             _label(panels[row, 0], f"{force} force", "N", True)
             _label(panels[row, 1], f"stubbornness in {share}", "share", False)
             _share_axis(panels[row, 1])
-        legend_above(panels[0, 0])
         for axis in panels[1]:
             axis.set_xlabel("time in s")
-        meeting = _settled_panel(figure.add_subplot(grid[:, 2]), human)
+        words = figure.add_subplot(grid[0, 2])
+        words.set_axis_off()
+        lines = panels[0, 0].get_legend_handles_labels()
+        legend = words.legend(*lines, loc="upper left", title="a robot that", alignment="left")
+        legend.set_in_layout(False)
+        meeting = _settled_panel(figure.add_subplot(grid[1, 2]), words, human)
         figure.suptitle(title, x=0.012, ha="left", size=10.0, parse_math=False)
         figure.supxlabel(STAGE, x=0.012, ha="left", size=8.0)
     save(figure, file)
@@ -136,11 +141,11 @@ def _share_axis(axis: Axes) -> None:
     axis.set_ylim(-0.03, 1.03)
 
 
-def _settled_panel(axis: Axes, human: Human) -> dict[str, list[float]]:
-    """Draw settled stubbornness over concession, and return where the paper's automation rests."""
+def _settled_panel(axis: Axes, words: Axes, human: Human) -> dict[str, list[float]]:
+    """Draw settled stubbornness, say and return where the paper's automation rests."""
     if not getattr(human, "closed_loop", True):
         axis.set_axis_off()
-        axis.text(0.0, 1.0, "A prescribed force\nanswers no concession.", va="top")
+        words.text(0.0, 0.3, "A prescribed force answers no concession.")
         return {"v": [], "omega": []}
     settled = settled_stubbornness(human, CONCESSIONS)
     styles: dict[str, tuple[int, str, dict[str, Any], dict[str, Any]]] = {
@@ -159,11 +164,8 @@ def _settled_panel(axis: Axes, human: Human) -> dict[str, list[float]]:
     }
     meeting, rests = {}, []
     for name, (i, label, line, mark) in styles.items():
-        points, jumps = fixed_points(
-            CONCESSIONS,
-            settled[:, i],
-            lambda c, i=i: float(settled_stubbornness(human, np.array([c]))[0, i]),
-        )
+        settle = partial(_settled_share, human, i)
+        points, jumps = fixed_points(CONCESSIONS, settled[:, i], settle)
         meeting[name] = points
         breaks = np.searchsorted(CONCESSIONS, jumps)
         axis.plot(
@@ -172,12 +174,20 @@ def _settled_panel(axis: Axes, human: Human) -> dict[str, list[float]]:
             label=label,
             **line,
         )
-        axis.plot(points, points, "o", ls="none", clip_on=False, **mark)
-        texts = [f"{p:.2f}" for p in points] + [f"jumps past it at {p:.2f}" for p in jumps]
-        rests.append(f"{label}: {', '.join(texts) or 'nowhere'}")
+        if points:
+            axis.plot(points, points, "o", ls="none", clip_on=False, **mark)
+        texts = [f"{p:.2f}" for p in points] or ["nowhere"]
+        texts += [f"jumps past it at {p:.2f}" for p in jumps]
+        rests.append(f"{label}: {', '.join(texts)}")
     axis.plot((0.0, 1.0), (0.0, 1.0), color=AUTOMATION, lw=1.0, label="paper")
     _share_axis(axis)
-    axis.set_xlabel("\n".join(("concession of the robot, held", "the paper's rests", *rests)))
-    _label(axis, "settled stubbornness", "share", False)
+    axis.set_xlabel("concession of the robot, held")
+    _label(axis, "settled", "stubbornness, share", False)
+    heading = "concession = stubbornness"
+    words.text(0.03, 0.02, "\n".join((heading, *rests)), linespacing=1.5)
     legend_above(axis)
     return meeting
+
+
+def _settled_share(human: Human, i: int, concession: float) -> float:
+    return float(settled_stubbornness(human, np.array([concession]))[0, i])

@@ -183,7 +183,7 @@ def fixed_points(
     """
     above = stubbornness - concessions
     points = [float(c) for c, gap in zip(concessions, above, strict=True) if gap == 0.0]
-    jumps = []
+    jumps: list[float] = []
     for i in np.flatnonzero(above[:-1] * above[1:] < 0.0):
         ends = [float(concessions[i]), float(concessions[i + 1])]
         gaps = [float(above[i]), float(above[i + 1])]

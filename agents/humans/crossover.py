@@ -27,6 +27,11 @@ class CrossoverHuman(LinearHuman):
 
     p_I being what the intention wants.
 
+    `truth` reports the wish p(t) + (p_I - p)(t - delay), at which this human would not push now,
+    not p_I: just after p passes p_I the force still points the other way, and no s in [0, 1]
+    gives that force with the wish p_I. The two are the same once p has stood still for a delay
+    (docs/humans.md says what that means for scoring).
+
     Parameters
     ----------
     crossover_frequency : float

@@ -21,7 +21,9 @@ class ImpedanceHuman(LinearHuman):
 
     The hand guides a point ahead of the base. Along the base x_d runs at the pace they want,
     as far as the arm reaches; across the path it moves to the offset they aim for with minimum
-    jerk, as carrying sideways together does (arXiv 1702.00733).
+    jerk, as carrying sideways together does (arXiv 1702.00733). The mass of the hand, 1 to 2 kg,
+    is left out: M (x_d'' - x''), 0.2 to 0.4 N for each 0.2 m/s^2, is no function of the twist,
+    so that the common definition has no s and p_H for it.
 
     Parameters
     ----------
@@ -32,7 +34,9 @@ class ImpedanceHuman(LinearHuman):
     duration : float
         Time for a movement sideways, s. Inferred.
     lever : float
-        Distance of the guided point ahead of the base's centre, m. Inferred.
+        Distance of the guided point ahead of the base's centre, m. Inferred: as far as the
+        intention looks ahead by default, so that the point they pull to the path is the one
+        that the others aim at it.
     reach : float
         How far x_d runs ahead of or behind the base, m. Inferred.
     force_max, gain, intention

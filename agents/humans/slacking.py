@@ -20,7 +20,9 @@ class SlackingHuman(DemandingHuman):
 
     for every turn i; within a turn the same law runs continuously. Emken et al. (2007) found
     F_{i+1} = f F_i + g e_i for people whose step a robot assists. Force is proportional to s
-    at a given error, so it obeys that law while the error lasts (docs/humans.md).
+    at a given error, so it obeys that law while the error lasts. Where the error ends, so does
+    the force, at once: the published decay of the force itself is not reproduced, that of the
+    readiness to push is (docs/humans.md).
 
     Parameters
     ----------

@@ -23,7 +23,10 @@ class PerceptionThreshold(Imperfection):
     perceptual deadbands of haptic coding have it. It applies to the force that the human
     inside feels (``observation["force"]``, whose mean over the control step counts, and that
     part of ``observation["wrench"]``; torque is felt as it is) and to
-    the force of their own hand, which they correct only by what they can feel.
+    the force of their own hand, which they correct only by what they can feel. The models that
+    ship answer the twist, and none reads the force: around them only the second does anything,
+    and the twist is perceived as it is. The first is for models of your own that answer what
+    they feel.
 
     Parameters
     ----------

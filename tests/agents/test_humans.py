@@ -51,6 +51,18 @@ def test_stubbornness_escalates_by_the_published_share_a_turn(situation, observe
     np.testing.assert_allclose(np.divide(turns[1:], turns[:-1]), 1.38, rtol=1e-9)
 
 
+def test_force_escalates_from_a_quarter_newton_as_in_the_published_pairs(situation, observe):
+    # Shergill et al. 2003: from a push of 0.25 N, 38 % a turn, 3.2 N more after 8 turns;
+    # 38 %, a rounded mean of six pairs, makes 3.04 N of it.
+    human = EscalatingHuman(initial=(0.07, 0.07), growth=0.38, turn=2.0)
+    human.reset(NO_RNG, situation)
+    turning = 0.25 / (7.5 * 2.0 * 0.07) * 0.5
+    forces = [-human.act(observe(twist=(0.8, turning)))[1] for _ in range(8 * 40 + 1)][::40]
+    assert forces[0] == pytest.approx(0.25, rel=0.01)  # a control step into the first turn
+    np.testing.assert_allclose(np.divide(forces[1:], forces[:-1]), 1.38, rtol=1e-9)
+    assert forces[8] - forces[0] == pytest.approx(3.2, rel=0.06)
+
+
 def test_escalation_relaxes_when_met_and_holds_if_told_to(situation, observe):
     against, met = observe(twist=(0.8, 0.5)), observe(twist=(0.8, 0.0))
     levels = {}

@@ -9,6 +9,7 @@ import pytest
 from matplotlib.image import imread
 
 from cowalk.agents import IMPERFECTIONS
+from cowalk.scenarios import human_pictures
 from cowalk.scenarios.human_answers import answer, fixed_points, push, settled_stubbornness
 from cowalk.scenarios.human_table import compare_humans, estimate, row, write_table
 from cowalk.scenarios.humans import build_human
@@ -76,6 +77,7 @@ def test_every_imperfection_is_seen_alone(cowalk, tmp_path, name):
         (("show", "steady", "--out", "x.pdf"), "pictures are PNG; write x.png"),
         (("show", "stedy"), "unknown human 'stedy'; did you mean 'steady'?"),
         (("show", "steady", "--imperfection", "tremro"), "did you mean 'tremor'?"),
+        (("show", "steady", "--set", "human.name=game"), "cowalk humans show game"),
         (("show", "steady", "--set", "plant=bullet"), "only keys of human can be set here"),
         (("show", "steady", "--set", "human.parameters.level=[2,0]"), "level = "),
         (("sample", "uncertain", "--plant", "bulet"), "did you mean 'bullet'?"),
@@ -137,13 +139,64 @@ def test_a_steady_human_answers_as_the_definition_says():
     assert np.abs(yielding.force[-20:]).max() < 0.1
 
 
-def test_fixed_points_are_where_the_curves_meet():
-    concessions = np.linspace(0.0, 1.0, 11)
-    assert fixed_points(concessions, 0.75 - 0.5 * concessions) == [pytest.approx(0.5)]
-    assert fixed_points(concessions, np.full(11, 0.3)) == [pytest.approx(0.3)]
-    assert fixed_points(concessions, concessions**2 * 0.0) == [0.0]
-    settled = settled_stubbornness(built("steady", level=[0.2, 0.6]), concessions, seeds=1)
-    assert fixed_points(concessions, settled[:, 1]) == [pytest.approx(0.6)]
+CONCESSIONS = np.linspace(0.0, 1.0, 11)
+
+
+@pytest.mark.parametrize(
+    ("curve", "points", "jumps"),
+    [
+        (lambda c: 0.75 - 0.5 * c, [0.5], []),
+        (lambda c: 0.3, [0.3], []),
+        (lambda c: 0.0, [0.0], []),
+        (lambda c: 1.0 / (1.0 + np.exp(60.0 * (c - 0.45))), [0.4531], []),  # steep
+        (lambda c: float(c > 0.703), [0.0, 1.0], [0.703]),
+        (lambda c: 0.9 - 0.8 * (c > 0.52), [], [0.52]),
+        (lambda c: 1.0 if c < 1.0 else np.nan, [], []),
+    ],
+)
+def test_fixed_points_are_where_the_curves_meet_not_where_one_jumps(curve, points, jumps):
+    values = np.array([curve(c) for c in CONCESSIONS], dtype=float)
+    found, jumped = fixed_points(CONCESSIONS, values, curve)
+    assert found == pytest.approx(points, abs=1e-3)
+    assert jumped == pytest.approx(jumps, abs=1e-3)
+
+
+def settled(name, *concessions, **parameters):
+    return settled_stubbornness(built(name, **parameters), np.array(concessions))
+
+
+def test_settled_stubbornness_is_what_the_page_says():
+    d_v = (0.8 - 0.6) / 1.2
+    np.testing.assert_allclose(settled("steady", 0.1, level=[0.2, 0.6]), [[0.2, 0.6]])
+    # s0 (1 - c), also where the little that is left in v is less than a twentieth of its bound
+    np.testing.assert_allclose(settled("tit-for-tat", 0.3, 0.8)[:, 0], [0.7, 0.2], atol=1e-3)
+    np.testing.assert_allclose(settled("slacking", 0.2)[0, 0], 0.4 * 0.8 * d_v / 0.2, atol=1e-3)
+    # Insisted on slowly: in v u = D/tolerance = 0.83, which takes more than 10 s from 0.3 to 1.
+    np.testing.assert_allclose(settled("escalating", 0.1)[0], [1.0, 1.0])
+    # B v_ub/(gain F_max) = 1.2, cut to 1; in omega the wish lies beyond the bound.
+    np.testing.assert_allclose(settled("impedance", 0.1, 0.9), 1.0)
+    np.testing.assert_allclose(settled("crossover", 0.1, 0.9), 0.75)
+
+
+@pytest.mark.parametrize("name", ["steady", "conceding", "tit-for-tat", "escalating"])
+def test_nothing_settles_where_nothing_is_left_to_insist_on(name):
+    assert np.isnan(settled(name, 1.0)).all()
+
+
+def test_a_conceding_humans_clock_makes_no_fixed_point(cowalk, tmp_path):
+    file = tmp_path / "picture.png"
+    code, out, _ = cowalk("humans", "show", "conceding", "--out", file, "--json")
+    assert code == 0
+    assert json.loads(out)["fixed points"] == {"v": [0.0], "omega": [0.0]}
+
+
+def test_an_open_loop_human_is_shown_on_a_push(cowalk, tmp_path, monkeypatch):
+    shown = []
+    monkeypatch.setattr(
+        human_pictures, "draw_human", lambda human, *rest: shown.append(human) or {}
+    )
+    assert cowalk("humans", "show", "open-loop", "--out", tmp_path / "picture.png")[0] == 0
+    assert (np.abs(answer(shown[0], 0.0).force).max(axis=0) > 1.0).all()
 
 
 def test_the_prescribed_push_rises_holds_and_ends():
@@ -194,12 +247,12 @@ def test_the_table_compares_pairs_and_goes_into_a_document(tmp_path):
 
 
 def test_the_table_says_which_runs_ended_early(cowalk):
-    pair = {"humans": ("tit-for-tat",), "automations": ("never-yields", "always-yields")}
+    pair = {"humans": ("bounded-memory",), "automations": ("never-yields", "always-yields")}
     straight, weaving = compare_humans(load("puddle", ["plant=unicycle"]), 2, jobs=1, **pair)
     assert straight.ended_early == NONE
-    assert weaving.ended_early == NONE | {"collision": 2}
+    assert weaving.ended_early == NONE | {"collision": 1}
     assert row(straight)[-1] == "none"
-    assert row(weaving)[-1] == "2 by collision"
+    assert row(weaving)[-1] == "1 by collision"
     # They carry on for less long, so that less effort adds up; it is not less by the metre.
     assert weaving.metrics["effort"].mean < straight.metrics["effort"].mean
 
