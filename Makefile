@@ -28,7 +28,7 @@ run: .venv/run  ## Run the closed-loop scenario and draw its picture
 	$(BIN)/cowalk run puddle --out runs/puddle
 
 test: .venv/develop  ## Run all tests
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest -n auto --dist loadfile
 
 lint: .venv/develop  ## Check style and formatting
 	$(BIN)/ruff check .

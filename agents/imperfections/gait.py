@@ -56,6 +56,11 @@ class GaitRipple(Imperfection):
     arm_stiffness: float = 100.0
     walking_speed: float = 0.4
 
+    @property
+    def closed_loop(self) -> bool:
+        """True around any human: the ripple follows the base's speed."""
+        return True
+
     def __post_init__(self) -> None:
         for name in ("lateral_sway", "fore_aft_sway", "arm_stiffness"):
             require(self, name, getattr(self, name) >= 0.0, "must not be negative")
