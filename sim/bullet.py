@@ -205,13 +205,12 @@ class BulletPlant:
 
     def _state(self, wrench: Array) -> PlantState:
         pair = self._pair
-        for name, velocity in pair.velocities():
+        for name, (vx, vy, rate) in pair.velocities():
             # Written so that a NaN fails it.
-            if not (math.hypot(*velocity[:2]) < MAX_SPEED and abs(velocity[2]) < MAX_RATE):
+            if not (vx * vx + vy * vy < MAX_SPEED**2 and abs(rate) < MAX_RATE):
                 raise SimulationError(
-                    f"the {name} moves at ({velocity[0]:.3g}, {velocity[1]:.3g}) m/s and "
-                    f"{velocity[2]:.3g} rad/s: diverged (beyond {MAX_SPEED} m/s, "
-                    f"{MAX_RATE} rad/s); "
+                    f"the {name} moves at ({vx:.3g}, {vy:.3g}) m/s and {rate:.3g} rad/s: "
+                    f"diverged (beyond {MAX_SPEED} m/s, {MAX_RATE} rad/s); "
                     "see what was commanded, and the gains of walker, grip and drive"
                 )
         x, y, yaw, vx, vy, rate = pair.base_state
