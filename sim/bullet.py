@@ -105,7 +105,7 @@ class BulletPlant:
         self._gui = gui
         self._viewer: Viewer | None = None
         self._world: World | None = None
-        self._distances: EngineClearance | None = None
+        self._distances: list[EngineClearance] = []
         self._steps = 0
 
     def reset(self, world: World, rng: np.random.Generator) -> PlantState:
@@ -231,10 +231,8 @@ class BulletPlant:
 
     def distances(self, world: World) -> EngineClearance:
         """See `Plant.distances`: by the engine."""
-        if self._distances is not None:
-            self._distances.close()
-        self._distances = EngineClearance(world, self.bodies.parts)
-        return self._distances
+        self._distances.append(EngineClearance(world, self.bodies.parts))
+        return self._distances[-1]
 
     def bare_step(self) -> None:
         """Step the engine alone, nothing driven or read: what a benchmark compares with."""
@@ -286,6 +284,6 @@ class BulletPlant:
         """See `Plant.close`."""
         if self._viewer is not None:
             self._viewer.close()
-        if self._distances is not None:
-            self._distances.close()
+        for distances in self._distances:
+            distances.close()
         self._pair.close()

@@ -30,6 +30,10 @@ class Distances(Protocol):
         """
         ...
 
+    def close(self) -> None:
+        """Free what it holds. May be called twice; the plant's `close` does it too."""
+        ...
+
 
 class Clearance:
     """Signed distance from discs to discs and rectangles, set up once and then cheap.
@@ -53,6 +57,9 @@ class Clearance:
         self._boxes = tuple(
             (b.x, b.y, math.cos(b.yaw), math.sin(b.yaw), b.half_length, b.half_width) for b in boxes
         )
+
+    def close(self) -> None:
+        """See `Distances.close`: nothing is held."""
 
     def __call__(self, time: float, *poses: tuple[float, float, float]) -> tuple[float, bool]:
         """See `Distances`."""

@@ -62,6 +62,7 @@ def contact(
             clearance, touching = measure(time, *placed)
             if touching and (deepest is None or -clearance > deepest.depth):
                 deepest = Contact(name, thing, -clearance)
+        measure.close()
     return deepest
 
 
@@ -80,14 +81,17 @@ def blocked_start(
     poses : tuple of (x, y, theta)
         Of the bodies at the world's start, in which something solid is touched.
     distances : callable
-        Returns what measures distances in a world, good until it is called again.
+        Returns what measures distances in a world.
     """
     start = list(world.start)
     found = contact(world, bodies, poses, distances)
     said = "something solid is touched"
     if found is not None:
         said = f"the {found.body} is {found.depth:.2g} m inside {found.thing}"
-    return f"world.start = {start}: {said}; {_cure(world, bodies, poses, distances(world))}"
+    measure = distances(world)
+    cure = _cure(world, bodies, poses, measure)
+    measure.close()
+    return f"world.start = {start}: {said}; {cure}"
 
 
 def _parts(world: World) -> list[tuple[str, World]]:

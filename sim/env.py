@@ -186,6 +186,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         if touching:
             plant = self._plant
             why = blocked_start(self.world, plant.bodies, state.poses, plant.distances)
+            self.agents, self._started = [], False
             raise InputError(why)
         self._info = {"clearance": clearance} | dict.fromkeys(_ENDS, False)
         return self._observations(), {seat: dict(self._info) for seat in SEATS}

@@ -187,7 +187,7 @@ class Plant(Protocol):
     def distances(self, world: World) -> Distances:
         """Return what measures how far its bodies are from everything in a world.
 
-        It is called with the time and `PlantState.poses`, and is good until asked for again.
+        It is called with the time and `PlantState.poses`, until it or the plant is closed.
         """
         ...
 

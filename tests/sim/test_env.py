@@ -315,3 +315,15 @@ def test_the_tare_of_a_load_on_wheels_moves_no_body_and_repeats():
     # 1.9 s of samples 480 times at a bandwidth of 44 Hz; a step of 0.01 N.
     assert np.abs(read[0][24:].mean(axis=0)[:3]).max() < 0.06
     assert np.abs(read[0][24:].mean(axis=0)[3:]).max() < 0.006
+
+
+@pytest.mark.parametrize("plant", ["bullet", "unicycle"])
+def test_a_blocked_start_is_refused_each_time_and_leaves_no_episode(plant):
+    env = parallel_env(World(Path(((0, 0), (20, 0))), corridor=Corridor(width=1.4)), plant=plant)
+    for _ in range(2):
+        with pytest.raises(InputError, match=r"inside a wall of world\.corridor"):
+            env.reset(seed=0)
+        assert env.agents == []
+        with pytest.raises(SimulationError, match="call reset before save"):
+            env.save()
+    env.close()
