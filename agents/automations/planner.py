@@ -20,7 +20,9 @@ from cowalk.sim.motion import Array, arc_displacement, compose, unit_arc, world_
 from .settings import NegotiationSettings
 
 _NEIGHBOURS = np.array([-1, 0, 1])
+_SHARES = np.linspace(0.0, 1.0, 17)
 _TINY = 1e-12
+_FLAT = 1e-200
 
 
 def minimise(cost: Callable[[Array], Array], low: Array, high: Array, points: int = 33) -> Array:
@@ -34,27 +36,63 @@ def minimise(cost: Callable[[Array], Array], low: Array, high: Array, points: in
     cost : callable
         Takes an array of shape (..., n) and returns the cost of each element.
     low, high : ndarray, shape (...)
-        One of its axes may be 1 where the cost has more lanes: they then share the first grid.
     points : int
         Number of points of each grid; the second covers two cells of the first.
 
     Returns
     -------
     ndarray, shape (...)
-        A place for every lane of the cost.
     """
     left, width = low[..., None], (high - low)[..., None]
-    for _ in range(2):
-        value = cost(left + width * _grid(points))
-        best = np.minimum(np.maximum(value.argmin(axis=-1), 1), points - 2)[..., None]
-        cell = width / (points - 1)
-        left, width = left + (best - 1) * cell, 2.0 * cell
-    lowest = np.take_along_axis(value, best + _NEIGHBOURS, axis=-1)
+    left, width = beside_least(cost(left + width * _grid(points)), left, width)
+    return vertex(cost(left + width * _grid(points)), left, width)
+
+
+def beside_least(value: Array, left: Array, width: Array) -> tuple[Array, Array]:
+    """Return left end and width of the two cells of a grid beside its least value.
+
+    Parameters
+    ----------
+    value : ndarray, shape (..., n)
+        At evenly spaced places.
+    left, width : ndarray, shape (..., 1)
+        Where they begin, and how far they reach.
+
+    Returns
+    -------
+    (ndarray, ndarray), each of shape (..., 1)
+    """
+    cell = width / (value.shape[-1] - 1)
+    return left + (_inner_least(value) - 1) * cell, 2.0 * cell
+
+
+def vertex(value: Array, left: Array, width: Array) -> Array:
+    """Return where the parabola through the least value of a grid and its neighbours is least.
+
+    Parameters
+    ----------
+    value, left, width : ndarray
+        See `beside_least`.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        No farther than a neighbour.
+    """
+    at = _inner_least(value)
+    lowest = np.take_along_axis(value, at + _NEIGHBOURS, axis=-1)
     before, here, after = lowest[..., 0], lowest[..., 1], lowest[..., 2]
     bend = before - 2.0 * here + after
-    shift = 0.5 * (before - after) / np.where(bend > 0.0, bend, np.inf)
-    inside = np.minimum(np.maximum(shift, -1.0), 1.0)[..., None]  # np.clip takes longer
-    return np.asarray((left + (1.0 + inside) * cell)[..., 0])
+    # Where it does not bend upwards the least value is at an end, which the division finds too.
+    shift = 0.5 * (before - after) / np.maximum(bend, _FLAT)
+    inside = np.minimum(np.maximum(shift, -1.0), 1.0)  # np.clip takes longer
+    cell = width[..., 0] / (value.shape[-1] - 1)
+    return np.asarray(left[..., 0] + (at[..., 0] + inside) * cell)
+
+
+def _inner_least(value: Array) -> Array:
+    """Return the number of the least value that has neighbours on both sides, shape (..., 1)."""
+    return np.minimum(np.maximum(value.argmin(axis=-1), 1), value.shape[-1] - 2)[..., None]
 
 
 @cache
@@ -94,16 +132,15 @@ class Problem(ABC):
         """Return p_A*, the primitive of least cost within the bounds, shape (..., 2)."""
 
     @abstractmethod
-    def front(self, share: Array, own: Array, human: Array, gap: Array) -> tuple[Array, Array]:
+    def front(self, own: Array, human: Array, gap: Array) -> tuple[Array, Array]:
         """Return points of the Pareto front between the two wishes, and what they cost.
 
         A point minimises share * J + (1 - share) * |(p - p_H)/p_ub|^2, both normed to lie
-        between 0 at one side's wish and 1 at the other's.
+        between 0 at one side's wish and 1 at the other's; the shares are evenly spaced from 0
+        (the human's wish) to 1 (one's own).
 
         Parameters
         ----------
-        share : ndarray, shape (..., n)
-            Weight of the automation, 0 (the human's wish) to 1 (its own).
         own, human : ndarray, shape (..., 2)
             p_A* and the estimated human wish, m/s and rad/s.
         gap : ndarray, shape (..., 1)
@@ -134,9 +171,9 @@ class TurnProblem(Problem):
         low, high = (np.broadcast_to(b[..., 1], lanes) for b in (self._lower, self._upper))
         return self._at_pace(minimise(lambda omega: self.cost(self._at_pace(omega)), low, high))
 
-    def front(self, share: Array, own: Array, human: Array, gap: Array) -> tuple[Array, Array]:
+    def front(self, own: Array, human: Array, gap: Array) -> tuple[Array, Array]:
         """See `Problem.front`; in one dimension it is the interval between the wishes."""
-        points = self._at_pace(human[..., None, 1] + share * (own - human)[..., None, 1])
+        points = self._at_pace(human[..., None, 1] + _SHARES * (own - human)[..., None, 1])
         return points, self.cost(points)
 
     def _at_pace(self, omega: Array) -> Array:
@@ -159,9 +196,11 @@ class TwistProblem(Problem):
         self._reach_weight = self._w1 * self._horizon**2
         self._pull_weight = self._w1 * self._horizon
         self._rest = self._w1 * (self._ahead**2 + self._left**2)
-        lanes = (*pose.shape[:-1], 1)
-        low, high = self._lower[..., 1:], self._upper[..., 1:]
-        self._turns = np.broadcast_to(low, lanes), np.broadcast_to(high, lanes)
+        # Bounds of v, the range of omega, and the costs at its grid, which all searches share.
+        self._slowest, self._fastest = self._lower[..., :1], self._upper[..., :1]
+        self._range = self._lower[..., 1:], self._upper[..., 1:] - self._lower[..., 1:]
+        self._turns = self._range[0] + self._range[1] * _grid(33)
+        self._parabolas = self._parabola(self._turns)
         self._scale = self._upper**-2
 
     def _parabola(self, omega: Array) -> tuple[Array, Array, Array]:
@@ -183,37 +222,40 @@ class TwistProblem(Problem):
 
     def wish(self) -> Array:
         """See `Problem.wish`."""
-        lanes = self._pose.shape[:-1]
-        nobody = np.zeros((*lanes, 2))
-        return self._best(np.ones((*lanes, 1)), np.zeros((*lanes, 1)), nobody)[0][..., 0, :]
+        left, width = beside_least(self._least(*self._parabolas)[1], *self._range)
+        turns = left + width * _grid(17)
+        omega = vertex(self._least(*self._parabola(turns))[1], left, width)[..., None]
+        v, _ = self._least(*self._parabola(omega))
+        return np.concatenate((v, omega), axis=-1)
 
-    def front(self, share: Array, own: Array, human: Array, gap: Array) -> tuple[Array, Array]:
-        """See `Problem.front`."""
-        human_gap = ((own - human) ** 2 * self._scale).sum(axis=-1)[..., None]
-        own_weight = share / np.maximum(gap, _TINY)
-        return self._best(own_weight, (1.0 - share) / np.maximum(human_gap, _TINY), human)
+    def _least(self, a: Array, b: Array, c: Array) -> tuple[Array, Array]:
+        """Return the v of least cost, and that cost, of every parabola, shape (..., n)."""
+        v = np.minimum(np.maximum(b / a, self._slowest), self._fastest)  # np.clip takes longer
+        return v, (a * v - 2.0 * b) * v + c
 
-    def _best(self, own_weight: Array, human_weight: Array, human: Array) -> tuple[Array, Array]:
-        """Minimise own_weight * J + human_weight * |(p - p_H)/p_ub|^2; return points and J."""
-        lanes, scale = self._pose.shape[:-1], self._scale
-        own = own_weight[..., None]
-        v_weight = human_weight[..., None] * scale[..., 0]
-        omega_weight = human_weight[..., None] * scale[..., 1]
+    def front(self, own: Array, human: Array, gap: Array) -> tuple[Array, Array]:
+        """See `Problem.front`: the best v in closed form for every share and every omega."""
+        # Axes: lanes, shares, omega.
+        away = (((own - human) ** 2) * self._scale).sum(axis=-1)[..., None, None]
+        own_weight = _SHARES[:, None] / np.maximum(gap[..., None], _TINY)
+        human_weight = (1.0 - _SHARES[:, None]) / np.maximum(away, _TINY)
+        v_weight = human_weight * self._scale[..., None, None, 0]
+        omega_weight = human_weight * self._scale[..., None, None, 1]
         v_human, omega_human = human[..., None, None, 0], human[..., None, None, 1]
-        asked, slowest, fastest = v_weight * v_human, self._lower[..., 0], self._upper[..., 0]
+        asked = v_weight * v_human
+        slowest, fastest = self._slowest[..., None], self._fastest[..., None]
 
-        def solve(omega: Array) -> tuple[Array, Array, Array]:
-            """Return the best v, what is minimised there, and J."""
-            a, b, c = (x.reshape(omega.shape) for x in self._parabola(omega.reshape(*lanes, -1)))
-            free = (own * b + asked) / (own * a + v_weight)
-            v = np.minimum(np.maximum(free, slowest), fastest)  # np.clip takes longer
-            cost = (a * v - 2.0 * b) * v + c
-            slower, turned = v - v_human, omega - omega_human
-            away = v_weight * (slower * slower) + omega_weight * (turned * turned)
-            return v, own * cost + away, cost
+        def best(a: Array, b: Array, c: Array) -> tuple[Array, Array]:
+            v = (own_weight * b + asked) / (own_weight * a + v_weight)
+            v = np.minimum(np.maximum(v, slowest), fastest)
+            return v, (a * v - 2.0 * b) * v + c
 
-        omega = minimise(lambda turn: solve(turn)[1], *self._turns, points=17)
-        v, _, cost = solve(omega[..., None])
+        v, cost = best(*(part[..., None, :] for part in self._parabolas))
+        slower, turned = v - v_human, self._turns[..., None, :] - omega_human
+        total = own_weight * cost + v_weight * (slower * slower) + omega_weight * (turned * turned)
+        left, width = self._range
+        omega = vertex(total, left[..., None], width[..., None])
+        v, cost = best(*(part[..., None] for part in self._parabola(omega)))
         return np.stack((v[..., 0], omega), axis=-1), cost[..., 0]
 
 

@@ -9,12 +9,14 @@ least is taken: the one on the Pareto front of the two wishes.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cowalk.sim.motion import Array
 
 from .planner import Problem
 
-_SHARES = np.linspace(0.0, 1.0, 17), np.linspace(0.0, 1.0, 9)
+_PARTS = 8
+_STEPS = np.linspace(0.0, 1.0, _PARTS + 1)[:, None]
 _BRACKET, _BRACKET_LEAST = np.array([-1, 0]), np.array([0, 1])
 _AGREED = 1e-12
 
@@ -40,6 +42,9 @@ def utility(cost: Array, human_cost: Array, own_cost: Array) -> Array:
 def negotiated(problem: Problem, own: Array, human: Array, target: Array) -> Array:
     """Return the primitive on the Pareto front whose utility is the target.
 
+    J is continuous, so the target is met on the straight line between the two neighbours on the
+    front that enclose it, even where weights find no point between them.
+
     Parameters
     ----------
     problem : Problem
@@ -54,22 +59,41 @@ def negotiated(problem: Problem, own: Array, human: Array, target: Array) -> Arr
         The automation's own wish where both wishes cost the same.
     """
     costs = problem.cost(np.stack((human, own), axis=-2))
-    human_cost, own_cost = costs[..., :1], costs[..., 1:]
-    gap = human_cost - own_cost
-    goal = np.asarray(target)[..., None]
-    low, width = np.zeros_like(gap), 1.0
-    for shares in _SHARES:
-        points, cost = problem.front(low + width * shares, own, human, gap)
-        value = utility(cost, human_cost, own_cost)
-        # Utility rises along the front: the first point at or above the target closes a bracket.
-        reached = value >= goal
-        last = np.where(reached.any(axis=-1), reached.argmax(axis=-1), shares.size - 1)[..., None]
-        pair = np.maximum(last + _BRACKET, _BRACKET_LEAST)
-        low, width = low + width * shares[pair[..., :1]], width / (shares.size - 1)
-    ends = np.take_along_axis(value, pair, axis=-1)
-    before, step = ends[..., :1], ends[..., 1:] - ends[..., :1]
-    weight = (goal - before) / np.where(step > 0.0, step, np.inf)
-    weight = np.minimum(np.maximum(weight, 0.0), 1.0)  # np.clip takes longer
-    sides = np.take_along_axis(points, pair[..., None], axis=-2)
-    settled = sides[..., 0, :] + weight * (sides[..., 1, :] - sides[..., 0, :])
+    gap = costs[..., :1] - costs[..., 1:]
+    level = costs[..., :1] - np.asarray(target)[..., None] * gap
+    points, cost = problem.front(own, human, gap)
+    points[..., 0, :], points[..., -1, :] = human, own
+    cost[..., 0], cost[..., -1] = costs[..., 0], costs[..., 1]
+    ends = np.take_along_axis(points, _enclosing(cost, level)[..., None], axis=-2)
+    start, way = ends[..., :1, :], ends[..., 1:, :] - ends[..., :1, :]
+    left, width = np.zeros_like(level), 1.0
+    for _ in range(2):
+        cost = problem.cost(start + (left[..., None] + width * _STEPS) * way)
+        pair = _enclosing(cost, level)
+        width /= _PARTS
+        left = left + width * pair[..., :1]
+    ends = np.take_along_axis(cost, pair, axis=-1)
+    before, fall = ends[..., :1], ends[..., :1] - ends[..., 1:]
+    weight = (before - level) / np.where(fall > 0.0, fall, np.inf)
+    place = left + width * np.minimum(np.maximum(weight, 0.0), 1.0)  # np.clip takes longer
+    settled = start[..., 0, :] + place * way[..., 0, :]
     return np.where(gap <= _AGREED, own, settled)
+
+
+def _enclosing(cost: Array, level: Array) -> NDArray[np.int_]:
+    """Return the numbers of the first point that costs no more than a level, and of that before.
+
+    Parameters
+    ----------
+    cost : ndarray, shape (..., n)
+        Of points from the human's wish, which costs more, to the automation's.
+    level : ndarray, shape (..., 1)
+
+    Returns
+    -------
+    ndarray of int, shape (..., 2)
+        The last two, if none costs so little.
+    """
+    reached = cost <= level
+    first = np.where(reached.any(axis=-1), reached.argmax(axis=-1), cost.shape[-1] - 1)
+    return np.maximum(first[..., None] + _BRACKET, _BRACKET_LEAST)

@@ -73,6 +73,32 @@ def test_the_negotiated_primitive_has_the_target_utility(o, h, v, w, target, dim
         assert low - 1e-9 <= agreed[1] <= high + 1e-9
 
 
+def test_on_a_sharply_bent_path_it_has_the_target_utility_too():
+    # The front has gaps there, which no weighing of the two wishes fills.
+    bent = Path(((0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (6.0, 3.0), (6.0, 20.0)))
+    situation = Situation(bent, 0.8, BOUNDS, 0.05)
+    rng = np.random.default_rng(0)
+    low, high = [2.0, -1.0, -0.6, 0.0, -0.5, 0.0], [6.0, 1.0, 0.6, 1.2, 0.5, 1.0]
+    drawn = rng.uniform(low, high, (5000, 6))
+    pose, human, target = drawn[:, :3], drawn[:, 3:5], drawn[:, 5]
+    chosen = NegotiationSettings(dimensions="both", horizon=2.0, turn_weight=0.2)
+    problem = PROBLEMS["both"](chosen, situation, pose)
+    own = problem.wish()
+    agreed = negotiated(problem, own, human, target)
+    at_agreed, at_human, at_own = problem.cost(np.stack((agreed, human, own), axis=1)).T
+    apart = at_human - at_own > 1e-3
+    reached = utility(at_agreed, at_human, at_own)
+    assert apart.mean() > 0.95
+    np.testing.assert_allclose(reached[apart], target[apart], atol=5e-4)
+
+
+def test_a_wish_at_the_end_of_the_range_is_that_end():
+    # Of a cost that bends downwards there, the vertex of no parabola.
+    low, high = np.array(-0.5), np.array(0.5)
+    assert minimise(lambda x: -((x + 0.6) ** 2), low, high) == 0.5
+    assert minimise(lambda x: -((x - 0.6) ** 2), low, high) == -0.5
+
+
 @pytest.mark.parametrize("target", [0.3, 0.5, 0.8])
 def test_in_v_and_omega_it_is_the_point_of_the_level_set_that_costs_the_human_least(target):
     problem = problem_at("both", 0.4, -0.1)
