@@ -16,6 +16,9 @@ from cowalk.sim.motion import Array
 from cowalk.sim.observation import Observation
 from cowalk.sim.path import Path
 
+SIDE_BY_SIDE = (0.28, 0.87, 0.32)
+"""Extent of a human to the right of the base that ships, the left hand on its handle, m."""
+
 __all__ = ["Automation", "Belief", "Bounds", "Human", "Observation", "Situation", "Truth"]
 
 
@@ -45,12 +48,16 @@ class Situation:
         Bounds of the twist that either may wish for.
     period : float
         Control period, s.
+    extent : (left, right, behind)
+        How far base, human and what they carry reach from the base's centre as they set out, m.
+        Without it, as human and base do side by side.
     """
 
     path: Path
     pace: float
     bounds: Bounds
     period: float
+    extent: tuple[float, float, float] = SIDE_BY_SIDE
 
 
 @dataclass(slots=True)

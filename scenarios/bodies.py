@@ -17,6 +17,20 @@ def outlines(env: CowalkEnv) -> dict[str, Outline]:
     return found
 
 
+def extent(env: CowalkEnv) -> tuple[float, float, float]:
+    """Return how far bodies and arms now reach to the left of, to the right of and behind a base.
+
+    From its centre, in its axes, m.
+    """
+    poses, parts = env.plant_state.poses, env.plant.bodies.parts
+    boxes = []
+    for number, outline in parts:
+        x, y = world_to_base(poses[0], poses[number][:2]).tolist()
+        boxes.append(outline.moved((x, y, poses[number][2] - poses[0][2])).box)
+    backs, _, rights, lefts = zip(*boxes, strict=True)
+    return max(lefts), -min(rights), -min(backs)
+
+
 def collision(env: CowalkEnv) -> dict[str, str] | None:
     """Return which body of a finished run touches what, by its key, or None if none does."""
     plant, state = env.plant, env.plant_state

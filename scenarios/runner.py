@@ -22,7 +22,7 @@ from cowalk.sim.env import CowalkEnv
 from cowalk.sim.errors import InputError, SimulationError
 
 from .answers import AgentError, of_kind, pair
-from .bodies import collision, outlines
+from .bodies import collision, extent, outlines
 from .building import build
 from .expectations import judge
 from .humans import build_human
@@ -146,9 +146,6 @@ def _episode(
 ) -> tuple[str, str | None]:
     """Step until the end; return how it ended, and the error if that is why."""
     env_seed, human_seed, automation_seed = np.random.SeedSequence(scenario.seed).spawn(3)
-    situation = Situation(
-        scenario.world.path, scenario.pace, scenario.bounds, scenario.rates.period
-    )
     names = {
         "human": f"human {scenario.human.name!r}",
         "automation": f"automation {scenario.automation.name!r}",
@@ -162,6 +159,13 @@ def _episode(
     actor = "plant"
     try:
         observations, infos = env.reset(seed=int(env_seed.generate_state(1)[0]))
+        situation = Situation(
+            scenario.world.path,
+            scenario.pace,
+            scenario.bounds,
+            scenario.rates.period,
+            extent(env),
+        )
         actor = "human"
         human.reset(np.random.default_rng(human_seed), situation)
         actor = "automation"

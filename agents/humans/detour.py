@@ -34,7 +34,7 @@ def detour(
     offset: Value,
     axis: tuple[Value, Value],
     obstacles: list[Value],
-    extent: tuple[float, float],
+    extent: tuple[float, float, float],
     margin: float,
     anticipation: float,
 ) -> Value:
@@ -52,8 +52,8 @@ def detour(
     extent, margin, anticipation
         See `cowalk.agents.humans.intention.IntentionSettings`.
     """
-    left, right = extent
-    behind = max(left, right)
+    left, right, _ = extent
+    behind = max(extent)  # whoever goes around the base's centre sweeps as far
     # Both bodies with their margin reach half of this about a middle beside the base's centre.
     breadth, shift = 0.5 * (left + right) + margin, offset + 0.5 * (right - left)
     cos, sin = axis

@@ -76,9 +76,9 @@ class IntentionSettings:
         Distance in m ahead of the base at which they aim.
     easing : float
         Distance in m over which their aim moves to the side and back. Inferred: a stride.
-    extent : (float, float)
-        How far base and human together reach to the left and to the right of the base's
-        centre, m. Inferred from the plants' body sizes.
+    extent : (left, right, behind) or None
+        How far base and human together reach from the base's centre, m; None is what the
+        situation says of the bodies that walk.
     path : Path or None
         Preferred path, world axes, m; None is the scenario's path.
     changes : sequence of ChangeOfMind
@@ -95,7 +95,7 @@ class IntentionSettings:
     anticipation: float = 4.0
     lookahead: float = 1.6
     easing: float = 0.8
-    extent: tuple[float, float] = (0.28, 0.87)
+    extent: tuple[float, float, float] | None = None
     path: Path | None = None
     changes: tuple[ChangeOfMind, ...] = ()
 
@@ -107,8 +107,8 @@ class IntentionSettings:
         for name in ("lookahead", "easing"):
             if not getattr(self, name) > 0.0:
                 raise InputError(f"{name} = {getattr(self, name)} m: must be above 0")
-        if not min(self.extent) >= 0.0:
-            raise InputError(f"extent = {self.extent}: neither may be negative")
+        if self.extent is not None and not min(self.extent) >= 0.0:
+            raise InputError(f"extent = {self.extent}: none may be negative")
 
 
 class Outlook(NamedTuple):
@@ -160,6 +160,8 @@ class Intention:
     def __init__(self, settings: IntentionSettings, situation: Situation) -> None:
         self._settings = settings
         self._pace: Value = situation.pace if settings.pace is None else settings.pace
+        extent = situation.extent if settings.extent is None else settings.extent
+        self._room = extent, settings.margin, settings.anticipation
         self._lower = components(situation.bounds.lower)
         self._upper = components(situation.bounds.upper)
         # The observation's poses refer to the scenario's path: None stands for it.
@@ -266,6 +268,4 @@ class Intention:
         axis = m.cos(heading), m.sin(heading)
         if not obstacles:
             return route, relative, axis, 0.0
-        wanted = self._settings
-        room = wanted.extent, wanted.margin, wanted.anticipation
-        return route, relative, axis, detour(m, offset, axis, obstacles, *room)
+        return route, relative, axis, detour(m, offset, axis, obstacles, *self._room)

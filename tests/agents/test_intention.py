@@ -57,7 +57,7 @@ def test_an_intention_alone_returns_to_the_path(offset, heading):
 def test_an_intention_alone_clears_what_it_sees_by_its_margin(y):
     settings = IntentionSettings(margin=0.2, anticipation=6.0)
     poses, _ = walk_alone(settings, obstacles_world=((9.0, y, 0.35),))
-    left, right = settings.extent
+    left, right, _ = CORRIDOR.extent
     beside = np.abs(poses[:, 0] - 9.0) < 0.35
     gap_left = y - 0.35 - (poses[beside, 1] + left)
     gap_right = (poses[beside, 1] - right) - (y + 0.35)
@@ -77,7 +77,7 @@ def largest_change(wanted, length):
 def test_a_slow_walk_past_an_obstacle_bends_the_wish_and_never_makes_it_jump():
     wanted = IntentionSettings(pace=0.3)
     _, twists = walk_alone(wanted, ((6.0, -0.75, 0.35),), steps=800)
-    detour = -0.75 + 0.35 + wanted.margin + wanted.extent[1]
+    detour = -0.75 + 0.35 + wanted.margin + CORRIDOR.extent[1]
     assert twists[:, 1].max() > 0.08  # they do turn, out and back
     assert twists[:, 1].min() < -0.08
     assert np.abs(np.diff(twists[:, 1])).max() < largest_change(wanted, detour)
@@ -88,7 +88,7 @@ def test_a_change_of_side_bends_the_wish_too():
     poses, twists = walk_alone(wanted, lambda time: ((5.0, 1.5 - 0.2 * time, 0.3),), steps=400)
     assert poses[:, 1].min() < -0.15  # first to the right of who comes from the left
     assert poses[:, 1].max() > 0.09
-    from_side_to_side = 2 * (0.3 + wanted.margin) + sum(wanted.extent)
+    from_side_to_side = 2 * (0.3 + wanted.margin) + sum(CORRIDOR.extent[:2])
     assert np.abs(np.diff(twists[:, 1])).max() < largest_change(wanted, from_side_to_side)
 
 
