@@ -13,6 +13,7 @@ from collections.abc import Callable
 from functools import cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cowalk.agents.interfaces import Situation
 from cowalk.sim.motion import Array, arc_displacement, compose, unit_arc, world_to_base
@@ -90,9 +91,10 @@ def vertex(value: Array, left: Array, width: Array) -> Array:
     return np.asarray(left[..., 0] + (at[..., 0] + inside) * cell)
 
 
-def _inner_least(value: Array) -> Array:
+def _inner_least(value: Array) -> NDArray[np.int_]:
     """Return the number of the least value that has neighbours on both sides, shape (..., 1)."""
-    return np.minimum(np.maximum(value.argmin(axis=-1), 1), value.shape[-1] - 2)[..., None]
+    inner = np.minimum(np.maximum(value.argmin(axis=-1), 1), value.shape[-1] - 2)
+    return np.asarray(inner)[..., None]
 
 
 @cache

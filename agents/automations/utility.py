@@ -96,4 +96,4 @@ def _enclosing(cost: Array, level: Array) -> NDArray[np.int_]:
     """
     reached = cost <= level
     first = np.where(reached.any(axis=-1), reached.argmax(axis=-1), cost.shape[-1] - 1)
-    return np.maximum(first[..., None] + _BRACKET, _BRACKET_LEAST)
+    return np.asarray(np.maximum(first[..., None] + _BRACKET, _BRACKET_LEAST))
