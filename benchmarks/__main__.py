@@ -25,6 +25,7 @@ from . import (
 SUBJECTS = {
     "closed loop": closed_loop.measure,
     "walk": partial(closed_loop.measure, "walk", 80.0, 2.0),
+    "walk on wheels": partial(closed_loop.measure, "walk", 80.0, 2.0, "wheels"),
     "shares of a walk": shares.measure,
     "plant options": plant_options.measure,
     "contact noise": contact_noise.measure,

@@ -16,7 +16,7 @@ ROUNDS = 6
 
 
 def measure(
-    name: str = "puddle", real_time: float = 60.0, ratio: float = 3.0
+    name: str = "puddle", real_time: float = 60.0, ratio: float = 3.0, drive: str = "slip"
 ) -> list[tuple[str, float, str, tuple[str, float] | None]]:
     """Return rows of (what, value, unit, target) of a scenario.
 
@@ -27,8 +27,10 @@ def measure(
         Times real time that a whole run should reach at least.
     ratio : float
         Ratio of a whole run to bare engine steps that it should have at most.
+    drive : {"slip", "wheels"}
+        With wheels the engine has contacts to solve: bare steps take longer, the rest does not.
     """
-    scenario = load(name)
+    scenario = load(name, [f"plant.parameters.drive.kind={drive}"])
     shorter = scenario.model_copy(update={"duration": STEPS * scenario.rates.period, "expect": {}})
     substeps = STEPS * scenario.rates.substeps
     unicycle = shorter.model_copy(update={"plant": Component(name="unicycle")})
