@@ -79,7 +79,9 @@ def check(document: Document) -> tuple[Scenario | None, list[Problem]]:
 
 def _with_preset(data: dict[str, Any]) -> tuple[dict[str, Any], list[Problem]]:
     """Return the data with the sensor's preset written out beneath what is given beside it."""
-    section = data.get("sensor")
+    section = data.get("sensor", {})
+    if section in (False, None, {"preset": "none"}):  # YAML reads "off" as false
+        return {**data, "sensor": {}}, []
     if not isinstance(section, dict) or "preset" not in section:
         return data, []
     given = {key: value for key, value in section.items() if key != "preset"}

@@ -6,6 +6,7 @@ import re
 from collections.abc import Collection
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 from typing import Any
 
 from cowalk.sim.registry import did_you_mean
@@ -15,6 +16,29 @@ from .stl import ErrorListener, InputStream, Interval, LtlLexer, StlAst
 Node = Any
 """A node of rtamt's syntax tree; rtamt is not typed."""
 
+OPERATORS = [
+    "always",
+    "eventually",
+    "until",
+    "historically",
+    "once",
+    "since",
+    "next",
+    "prev",
+    "rise",
+    "fall",
+    "not",
+    "and",
+    "or",
+    "implies",
+    "iff",
+    "xor",
+    "abs",
+    "sqrt",
+    "exp",
+    "pow",
+]
+"""Words that may stand before or after a bracket."""
 NUMBERS = {
     "Abs",
     "Addition",
@@ -91,7 +115,14 @@ def parse(text: str, columns: Collection[str]) -> Formula:
     if any(token.type == LtlLexer.EQUAL for token in tokens):
         raise FormulaError("'=' says nothing here; write == to compare")
     names = sorted({token.text for token in tokens if token.type == LtlLexer.Identifier})
+    called = {
+        token.text
+        for token, after in pairwise(tokens)
+        if token.type == LtlLexer.Identifier and after.type in (LtlLexer.LPAREN, LtlLexer.LBRACK)
+    }
     for name in names:
+        if name not in columns and name in called:
+            raise FormulaError(f"unknown operator {name!r}; {did_you_mean(name, OPERATORS)}")
         if name not in columns:
             spaces = "put spaces around /; " if "/" in name else ""
             raise FormulaError(

@@ -196,6 +196,8 @@ def test_every_column_of_a_trace_can_be_used():
         ("always[-1:2] (x > 0)", "must rise from 0 s on"),
         ("always[0:0.33] (x > 0)", "0.33 s is not a whole number of control periods of 0.05 s"),
         ("(x > 0) unless (y > 0)", "bounds"),
+        ("allways[0:1s] (x > 0)", "unknown operator 'allways'; did you mean 'always'?"),
+        ("not (sometimes (x > 0))", "unknown operator 'sometimes'; known: always, eventually,"),
     ],
 )
 def test_a_broken_formula_is_explained_in_one_line(formula, words, capfd):

@@ -35,6 +35,12 @@ def test_a_preset_stands_for_its_parameters(with_sensor):
     assert load(with_sensor("{noise_density: 0.1}")).sensor == SensorParameters(noise_density=0.1)
 
 
+@pytest.mark.parametrize("off", ["off", "none", "false", "null", "{}"])
+def test_a_sensor_can_be_taken_off(with_sensor, off):
+    assert load(with_sensor(off)).sensor == SensorParameters()
+    assert load(with_sensor("industrial"), (f"sensor={off}",)).sensor == SensorParameters()
+
+
 def test_a_preset_can_be_set_and_changed_from_the_command_line(with_sensor):
     file = with_sensor("laboratory")
     changed = load(file, ("sensor=low-cost", "sensor.range=50")).sensor
