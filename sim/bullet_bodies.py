@@ -9,7 +9,9 @@ from typing import Any, Protocol
 
 from .bullet_engine import engine, load
 from .drive import DriveParameters, SlipDrive
-from .urdf import Rigid, Vector, link, planar
+from .frames import Vector
+from .urdf import Rigid
+from .urdf_chain import link, planar
 
 State = tuple[float, ...]
 

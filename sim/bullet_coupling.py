@@ -8,9 +8,10 @@ from .bullet_bodies import Base, Slab
 from .bullet_engine import engine
 from .bullet_grip import Wrench
 from .errors import InputError
+from .frames import Vector
 from .outline import Outline, rectangle
 from .parameters import Range, require_effect, require_ranges
-from .urdf import Rigid, Vector
+from .urdf import Rigid
 
 COUPLINGS = ("handle", "stretcher")
 RANGES: dict[str, Range] = {

@@ -7,9 +7,9 @@ from typing import Any
 
 from .bullet_bodies import Base, Chain, Slab, State
 from .bullet_engine import engine, force_on_parent
+from .frames import Vector
 from .grip import Bushing, GripParameters
 from .human_body import HumanBody
-from .urdf import Vector
 
 Wrench = tuple[float, float, float, float, float, float]
 NOTHING: Wrench = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)

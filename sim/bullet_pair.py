@@ -17,6 +17,7 @@ from .bullet_view import Look
 from .bullet_wheels import WheelBase
 from .drive import DriveParameters
 from .errors import InputError
+from .frames import Vector
 from .gains import Gains, refuse_unstable
 from .grip import GripParameters
 from .human_body import arm_outlines, eye, human_body, trunk_outline
@@ -24,7 +25,6 @@ from .motion import Array
 from .outline import Bodies
 from .robot import RobotParameters, robot_of, two_hands
 from .stability import Masses
-from .urdf import Vector
 from .walker import WalkerParameters
 
 SETTLING = 0.25

@@ -19,10 +19,10 @@ from .bullet_engine import connect, disconnect, engine, load
 from .bullet_scene import look_at, photograph
 from .bullet_scenery import Scenery
 from .camera import Camera
+from .frames import Vector
 from .gait import step_frequency
 from .human_body import HumanBody
 from .human_figure import figure_urdf, pose
-from .urdf import Vector
 from .urdf_colours import one_colour_a_link
 from .world import World
 

@@ -8,7 +8,8 @@ from typing import Any
 from .bullet_bodies import State, free_body
 from .bullet_engine import Snapshot, engine, load
 from .drive import Command, DriveParameters
-from .urdf import Rigid, Vector
+from .frames import Vector
+from .urdf import Rigid
 
 WHEEL_MASS, WHEEL_WIDTH = 1.5, 0.04
 """Of a driven wheel, kg and m (inferred)."""

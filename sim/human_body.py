@@ -13,8 +13,9 @@ from .anthropometry import (
     yaw_inertia,
 )
 from .arm import ELBOW_RANGE, SHOULDER_RANGE, Arm, arm_of
+from .frames import Vector
 from .outline import Outline, across, bar
-from .urdf import Vector, hinge, link, planar, slider
+from .urdf_chain import hinge, link, planar, slider
 
 BESIDE = (0.25, 0.15)
 """Where a single hand rests, ahead of its shoulder and outwards, m: at 1.75 m and a handle at

@@ -17,9 +17,10 @@ from .anthropometry import (
     girth,
 )
 from .arm import Arm
+from .frames import Vector
 from .gait import step_frequency
 from .human_body import HumanBody
-from .urdf import Vector, hinge
+from .urdf_chain import hinge
 
 SKIN, HAIR, SHIRT, TROUSERS, SHOES = (
     "0.87 0.68 0.54 1",

@@ -8,14 +8,17 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from .errors import InputError
+from .frames import Vector
 from .outline import Outline, disc
 from .plant import BASE_RADIUS, CAMERA
 from .registry import did_you_mean
-from .urdf import Rigid, Vector, lump, mirrored, read_robot
+from .urdf import Rigid, lump, mirrored, read_robot
 from .urdf_outline import robot_outline
 
 HANDLES_APART = 0.44
 """Distance of the two hands on one handle bar, m (inferred: shoulder breadth)."""
+DRAWN = (".obj", ".stl", ".dae")
+"""Mesh files that the engine draws."""
 
 
 @dataclass(frozen=True)
@@ -91,8 +94,7 @@ def robot_of(parameters: RobotParameters, hand: str, coupling: str) -> Robot:
     camera = (outline.box[1], 0.0, top)
     if parameters.camera != RobotParameters.camera or parameters.camera in rigid.places:
         camera = _place_of(rigid, "camera", parameters.camera)
-    looks = ElementTree.tostring(root, encoding="unicode")
-    return Robot(rigid, handle, handles, looks, outline, camera)
+    return Robot(rigid, handle, handles, _locked(root), outline, camera)
 
 
 def _place_of(rigid: Rigid, parameter: str, name: str) -> Vector:
@@ -109,12 +111,40 @@ def two_hands(handle: Vector) -> tuple[Vector, Vector]:
 
 
 def _absolute_meshes(root: ElementTree.Element, folder: Path) -> None:
-    for mesh in root.iter("mesh"):
-        name = mesh.get("filename", "")
-        if name.startswith("package://"):
-            # Named from the folder that holds the package, which the file itself lies in.
-            inside = name.removeprefix("package://")
-            holders = (place for place in (folder, *folder.parents) if (place / inside).is_file())
-            mesh.set("filename", str(next(holders, folder) / inside))
-        else:
-            mesh.set("filename", str(folder / name.removeprefix("file://")))
+    """Give meshes their absolute paths.
+
+    Raises
+    ------
+    InputError
+        If there is no such file, or it is to be seen and of a kind that is not drawn.
+    """
+    for link in root.findall("link"):
+        for kind in ("collision", "visual"):
+            for mesh in link.findall(f"{kind}/geometry/mesh"):
+                given = mesh.get("filename", "")
+                path = _mesh_path(given, folder)
+                fault = f'robot: link {link.get("name", "")!r}, <{kind}>: <mesh filename="{given}">'
+                if not path.is_file():
+                    raise InputError(f"{fault}: there is no mesh {str(path)!r}")
+                if kind == "visual" and path.suffix.lower() not in DRAWN:
+                    raise InputError(f"{fault}: must be one of {', '.join(DRAWN)} to be drawn")
+                mesh.set("filename", str(path))
+
+
+def _mesh_path(name: str, folder: Path) -> Path:
+    if name.startswith("package://"):
+        # Named from the folder that holds the package, which the file itself lies in.
+        inside = name.removeprefix("package://")
+        holders = (place for place in (folder, *folder.parents) if (place / inside).is_file())
+        return next(holders, folder) / inside
+    return folder / name.removeprefix("file://")
+
+
+def _locked(root: ElementTree.Element) -> str:
+    """Return the robot with its joints fixed where they are at zero, for who draws it."""
+    for joint in root.findall("joint"):
+        joint.set("type", "fixed")
+        for part in list(joint):
+            if part.tag not in ("parent", "child", "origin"):
+                joint.remove(part)
+    return ElementTree.tostring(root, encoding="unicode")

@@ -1,8 +1,7 @@
-"""Reading and writing URDF as XML: what rigid bodies weigh as a whole, and plain chains. Pure."""
+"""Reading URDF: where links are, and what they weigh as one rigid body. Pure."""
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree
@@ -10,12 +9,9 @@ from xml.etree import ElementTree
 import numpy as np
 
 from .errors import InputError
+from .frames import Frame, Vector, rotation, within
 from .motion import Array
-
-Vector = tuple[float, float, float]
-Frame = tuple[Array, Array]
-"""Rotation (3, 3) and origin (3,), m."""
-
+from .urdf_check import check, number, numbers
 
 LEAST_MASS = 1.0
 """Of a robot that two can hold, kg (inferred): below it units or decimals are usually wrong."""
@@ -49,7 +45,7 @@ def read_robot(path: Path) -> ElementTree.Element:
     Raises
     ------
     InputError
-        If there is no such file, or it is no URDF.
+        If there is no such file, or it is no URDF, or `check` refuses it.
     """
     try:
         root = ElementTree.parse(path).getroot()
@@ -59,12 +55,8 @@ def read_robot(path: Path) -> ElementTree.Element:
         raise InputError(f"robot.urdf = {str(path)!r}: no XML: {error}") from error
     if root.tag != "robot" or root.find("link") is None:
         raise InputError(f"robot.urdf = {str(path)!r}: no <robot> with a <link> in it")
+    check(root)
     return root
-
-
-def numbers(text: str | None) -> Array:
-    """Return the numbers of an attribute such as "0 0 1"; three zeros where there is none."""
-    return np.array([float(part) for part in (text or "0 0 0").split()])
 
 
 def origin(element: ElementTree.Element) -> Frame:
@@ -72,47 +64,20 @@ def origin(element: ElementTree.Element) -> Frame:
     found = element.find("origin")
     if found is None:
         return np.eye(3), np.zeros(3)
-    return rotation(*numbers(found.get("rpy"))), numbers(found.get("xyz"))
-
-
-def within(outer: Frame, inner: Frame) -> Frame:
-    """Return a frame that is given in the axes of an outer one, in what that is given in."""
-    (turn, shift), (own_turn, own_shift) = outer, inner
-    return turn @ own_turn, shift + turn @ own_shift
-
-
-def rotation(roll: float, pitch: float, yaw: float) -> Array:
-    """Return the rotation matrix of fixed-axis roll, pitch, yaw (rad), shape (3, 3)."""
-    cr, sr, cp, sp = math.cos(roll), math.sin(roll), math.cos(pitch), math.sin(pitch)
-    cy, sy = math.cos(yaw), math.sin(yaw)
-    return np.array(
-        [
-            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
-            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
-            [-sp, cp * sr, cp * cr],
-        ]
-    )
-
-
-def _float(link: str, what: str, text: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        raise InputError(f"robot: link {link!r} has {what} = {text!r}: not a number") from None
+    return rotation(*numbers(found, "rpy")), numbers(found, "xyz")
 
 
 def _inertia(link: str, element: ElementTree.Element) -> Array:
     """Return a link's inertia in its own axes, kg m^2, shape (3, 3); zeros are those of a point."""
     keys = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
-    values = [_float(link, key, element.get(key, "0")) for key in keys]
+    values = [number(element, key) for key in keys]
     xx, yy, zz, xy, xz, yz = values
     matrix = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     if not any(values):
         return matrix
     for key, value in zip(keys, values, strict=True):
-        if not math.isfinite(value) or (value <= 0.0 and key in keys[:3]):
-            more = "finite" if not math.isfinite(value) else "above 0"
-            raise InputError(f"robot: link {link!r} has {key} = {value:g} kg m^2: must be {more}")
+        if value <= 0.0 and key in keys[:3]:
+            raise InputError(f"robot: link {link!r} has {key} = {value:g} kg m^2: must be above 0")
     least, middle, most = (float(moment) for moment in np.linalg.eigvalsh(matrix))
     moments = f"principal moments {least:.3g}, {middle:.3g}, {most:.3g} kg m^2"
     if least <= 0.0:
@@ -134,7 +99,7 @@ def link_frames(root: ElementTree.Element) -> dict[str, Frame]:
     InputError
         If the joints do not form one tree.
     """
-    children = {j.find("child").get("link"): j for j in root.iter("joint") if _joint(j)}  # type: ignore[union-attr]
+    children = {_end(joint, "child"): joint for joint in root.findall("joint")}
     frames: dict[str, Frame] = {}
 
     def frame(name: str, depth: int = 0) -> Frame:
@@ -145,13 +110,16 @@ def link_frames(root: ElementTree.Element) -> dict[str, Frame]:
             else:
                 if depth > len(children):
                     raise InputError(f"robot: the joints above link {name!r} form a loop")
-                above = frame(joint.find("parent").get("link"), depth + 1)  # type: ignore[union-attr,arg-type]
+                above = frame(_end(joint, "parent"), depth + 1)
                 frames[name] = within(above, origin(joint))
         return frames[name]
 
-    names = [link.get("name", "") for link in root.iter("link")]
+    names = [link.get("name", "") for link in root.findall("link")]
     if len(roots := [name for name in names if name not in children]) != 1:
-        raise InputError(f"robot: {len(roots)} links are no joint's child ({', '.join(roots)})")
+        which = f" ({', '.join(roots)})" if roots else ""
+        raise InputError(
+            f"robot: {len(roots)} links are no joint's child{which}: must be one, the root"
+        )
     return {name: frame(name) for name in names}
 
 
@@ -166,11 +134,11 @@ def lump(root: ElementTree.Element) -> Rigid:
     """
     frames = link_frames(root)
     parts = []
-    for link in root.iter("link"):
+    for link in root.findall("link"):
         name, inertial = link.get("name", ""), link.find("inertial")
         found = inertial.find("mass") if inertial is not None else None
-        mass = _float(name, "mass", found.get("value", "0")) if found is not None else 0.0
-        if not 0.0 <= mass < math.inf:
+        mass = number(found, "value") if found is not None else 0.0
+        if mass < 0.0:
             raise InputError(f"robot: link {name!r} has mass = {mass:g} kg: it must be at least 0")
         if inertial is None or mass == 0.0:
             if link.find("collision") is not None:
@@ -201,8 +169,10 @@ def lump(root: ElementTree.Element) -> Rigid:
     return Rigid(total, _vector(centre), float(yaw), places)
 
 
-def _joint(joint: ElementTree.Element) -> bool:
-    return joint.find("child") is not None and joint.find("parent") is not None
+def _end(joint: ElementTree.Element, end: str) -> str:
+    """Return the name of a joint's parent or child link."""
+    found = joint.find(end)
+    return found.get("link", "") if found is not None else ""
 
 
 def _vector(array: Array) -> Vector:
@@ -214,87 +184,8 @@ def mirrored(root: ElementTree.Element) -> ElementTree.Element:
     """Return a robot with left and right swapped (y to -y), for bodies of plain shapes."""
     copy = ElementTree.fromstring(ElementTree.tostring(root))
     for place in copy.iter("origin"):
-        x, y, z = numbers(place.get("xyz"))
-        roll, pitch, yaw = numbers(place.get("rpy"))
+        x, y, z = numbers(place, "xyz")
+        roll, pitch, yaw = numbers(place, "rpy")
         place.set("xyz", f"{x} {-y} {z}")
         place.set("rpy", f"{-roll} {pitch} {-yaw}")
     return copy
-
-
-LOCKED = '<link name="{0}"><inertial><mass value="0"/><inertia ixx="0" iyy="0" izz="0" ixy="0" ixz="0" iyz="0"/></inertial></link>'  # noqa: E501
-
-
-def link(name: str, mass: float, centre: Vector, yaw_inertia: float) -> str:
-    """Return a link that only turns about the vertical, so that one moment of inertia is enough."""
-    x, y, z = centre
-    return (
-        f'<link name="{name}"><inertial><origin xyz="{x!r} {y!r} {z!r}"/><mass value="{mass!r}"/>'
-        f'<inertia ixx="{yaw_inertia!r}" iyy="{yaw_inertia!r}" izz="{yaw_inertia!r}" '
-        'ixy="0" ixz="0" iyz="0"/></inertial></link>'
-    )
-
-
-def hinge(
-    name: str,
-    parent: str,
-    child: str,
-    place: Vector = (0.0, 0.0, 0.0),
-    limits: tuple[float, float] | None = None,
-) -> str:
-    """Return a joint about the vertical, with or without limits (rad)."""
-    x, y, z = place
-    kind, limit = "continuous", ""
-    if limits is not None:
-        kind = "revolute"
-        limit = f'<limit lower="{limits[0]!r}" upper="{limits[1]!r}" effort="1e9" velocity="1e9"/>'
-    return (
-        f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>'
-        f'<origin xyz="{x!r} {y!r} {z!r}"/><axis xyz="0 0 1"/>{limit}</joint>'
-    )
-
-
-FREE = (1.0, -1.0)
-"""Limits that the engine takes for none."""
-
-
-def slider(
-    name: str,
-    parent: str,
-    child: str,
-    axis: str,
-    place: Vector = (0.0, 0.0, 0.0),
-    limits: tuple[float, float] = FREE,
-) -> str:
-    """Return a joint that slides along an axis, freely or within limits (m)."""
-    x, y, z = place
-    return (
-        f'<joint name="{name}" type="prismatic"><parent link="{parent}"/><child link="{child}"/>'
-        f'<origin xyz="{x!r} {y!r} {z!r}"/><axis xyz="{axis}"/>'
-        f'<limit lower="{limits[0]!r}" upper="{limits[1]!r}" effort="1e9" velocity="1e9"/></joint>'
-    )
-
-
-def planar(name: str, root_link: str, parts: str, rises: bool = False) -> str:
-    """Return a robot whose ``root_link``, among ``parts``, slides and turns on the floor.
-
-    The engine's planar joint cannot be driven from Python; a chain x, y, yaw can.
-
-    Parameters
-    ----------
-    name, root_link, parts : str
-    rises : bool
-        Whether its height is free as well (joint ``z``).
-    """
-    lift = LOCKED.format("slide_z") + slider("z", "ground", "slide_z", "0 0 1") if rises else ""
-    return "".join(
-        (
-            f'<robot name="{name}">',
-            *(LOCKED.format(part) for part in ("ground", "slide_x", "slide_y")),
-            lift,
-            slider("x", "slide_z" if rises else "ground", "slide_x", "1 0 0"),
-            slider("y", "slide_x", "slide_y", "0 1 0"),
-            hinge("yaw", "slide_y", root_link),
-            parts,
-            "</robot>",
-        )
-    )

@@ -1,100 +1,139 @@
-"""What a robot occupies on the floor plan, from the shapes in its URDF. Pure."""
+"""What a robot occupies, from the shapes in its URDF: one by one, and its floor plan. Pure."""
 
 from __future__ import annotations
 
-from pathlib import Path
+from dataclasses import dataclass
 from xml.etree import ElementTree
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .errors import InputError
+from .frames import Frame, within
 from .motion import Array
 from .outline import SIDES, Disc, Outline, hull
-from .urdf import Frame, link_frames, numbers, origin, within
+from .urdf import link_frames, origin
+from .urdf_check import number, numbers
 
 UPRIGHT = 1.0 - 1e-9
 """Cosine of the tilt up to which a cylinder counts as upright."""
 
 
-def robot_outline(root: ElementTree.Element) -> tuple[Outline, float] | None:
-    """Return the convex outline of a robot, all joints at zero, and how high it is (m).
+@dataclass(frozen=True, eq=False)
+class Solid:
+    """A shape of a link, in the axes of the root link: the hull of its points, grown all around.
 
-    Its collision shapes count, or if it has none the visible ones; None if it has neither.
+    Attributes
+    ----------
+    link : str
+    points : ndarray, shape (n, 3)
+        m.
+    radius : float
+        How much it is larger than that hull on the floor plan, m.
+    rise : float
+        How much it is higher and lower than that, m: nothing for a cylinder.
+    faces : ndarray, shape (m, 3), or None
+        Of a mesh, which may be hollow: three numbers of points each.
+    """
+
+    link: str
+    points: Array
+    radius: float = 0.0
+    rise: float = 0.0
+    faces: NDArray[np.int64] | None = None
+
+    @property
+    def discs(self) -> list[Disc]:
+        """What its floor plan is the hull of."""
+        return [(float(x), float(y), self.radius) for x, y, _ in self.points]
+
+    @property
+    def top(self) -> float:
+        """How high it is above the floor, m."""
+        return float(self.points[:, 2].max()) + self.rise
+
+
+def robot_solids(root: ElementTree.Element) -> tuple[str, tuple[Solid, ...]]:
+    """Return which shapes of a robot count, and those, all joints at zero.
+
+    Its collision shapes count, or if it has none the visible ones ("collision", "visual").
 
     Parameters
     ----------
     root : Element
-        Of a URDF whose mesh files are given by absolute paths.
+        Of a URDF that `cowalk.sim.urdf_check.check` took, mesh files given by absolute paths.
 
     Raises
     ------
     InputError
-        If a shape has no size, or a mesh cannot be read.
+        If a mesh cannot be read.
     """
     frames = link_frames(root)
+    solids: tuple[Solid, ...] = ()
     for kind in ("collision", "visual"):
-        discs: list[Disc] = []
-        top = 0.0
-        for link in root.iter("link"):
-            for element in link.findall(kind):
-                frame = within(frames[link.get("name", "")], origin(element))
-                found, height = _shape(link.get("name", ""), element.find("geometry"), frame)
-                discs += found
-                top = max(top, height)
-        if discs:
-            try:
-                return hull(discs), top
-            except ValueError as error:
-                raise InputError(f"robot.urdf: its {kind} shapes have no breadth") from error
-    return None
+        solids = tuple(
+            _solid(name, element, within(frames[name], origin(element)))
+            for name, link in ((link.get("name", ""), link) for link in root.findall("link"))
+            for element in link.findall(kind)
+        )
+        if solids:
+            break
+    return kind, solids
 
 
-def _shape(
-    link: str, geometry: ElementTree.Element | None, frame: Frame
-) -> tuple[list[Disc], float]:
-    """Return the discs and corners that a shape's floor plan is the hull of, and its top, m."""
-    element = next(iter(geometry), None) if geometry is not None else None
+def robot_outline(root: ElementTree.Element) -> tuple[Outline, float] | None:
+    """Return the convex outline of a robot, all joints at zero, and how high it is (m).
+
+    None if it has no shapes; see `robot_solids`.
+
+    Raises
+    ------
+    InputError
+        If a mesh cannot be read, or the shapes have no breadth.
+    """
+    kind, solids = robot_solids(root)
+    if not solids:
+        return None
     try:
-        if element is None:
-            raise ValueError("no shape")
-        if element.tag == "sphere":
-            return _balls(np.zeros((1, 3)), float(element.attrib["radius"]), frame)
-        if element.tag == "box":
-            signs = np.array(np.meshgrid(*[(-0.5, 0.5)] * 3)).reshape(3, -1).T
-            return _points(signs * numbers(element.attrib["size"]), frame)
-        if element.tag in ("cylinder", "capsule"):
-            half, radius = float(element.attrib["length"]) / 2.0, float(element.attrib["radius"])
-            ends = np.array([[0.0, 0.0, -half], [0.0, 0.0, half]])
-            if element.tag == "capsule":
-                return _balls(ends, radius, frame)
-            if abs(frame[0][2, 2]) >= UPRIGHT:
-                discs, top = _balls(ends, radius, frame)
-                return discs, top - radius
-            turn = np.arange(SIDES) * (2.0 * np.pi / SIDES)
-            rim = radius * np.stack((np.cos(turn), np.sin(turn), 0.0 * turn), axis=-1)
-            return _points((ends[:, None] + rim).reshape(-1, 3), frame)
-        if element.tag == "mesh":
-            scale = numbers(element.get("scale", "1 1 1"))
-            return _points(_vertices(element.attrib["filename"]) * scale, frame)
-        raise ValueError(f"unknown shape {element.tag!r}")
-    except (KeyError, ValueError) as error:
-        reason = f"no {error}" if isinstance(error, KeyError) else error
-        raise InputError(f"robot.urdf: a shape of link {link!r}: {reason}") from error
+        outline = hull(disc for solid in solids for disc in solid.discs)
+    except ValueError as error:
+        raise InputError(f"robot.urdf: its {kind} shapes have no breadth") from error
+    return outline, max(0.0, *(solid.top for solid in solids))
 
 
-def _balls(centres: Array, radius: float, frame: Frame) -> tuple[list[Disc], float]:
-    places = centres @ frame[0].T + frame[1]
-    discs = [(float(x), float(y), radius) for x, y, _ in places]
-    return discs, float(places[:, 2].max()) + radius
+def _solid(link: str, element: ElementTree.Element, frame: Frame) -> Solid:
+    """Return one shape of a link whose place is given."""
+    shape = element.find("geometry/*")
+    assert shape is not None, "checked"
+
+    def placed(points: Array) -> Array:
+        return np.asarray(points @ frame[0].T + frame[1])
+
+    if shape.tag == "sphere":
+        radius = number(shape, "radius")
+        return Solid(link, placed(np.zeros((1, 3))), radius, radius)
+    if shape.tag == "box":
+        signs = np.array(np.meshgrid(*[(-0.5, 0.5)] * 3)).reshape(3, -1).T
+        return Solid(link, placed(signs * numbers(shape, "size")))
+    if shape.tag in ("cylinder", "capsule"):
+        half, radius = number(shape, "length") / 2.0, number(shape, "radius")
+        ends = np.array([[0.0, 0.0, -half], [0.0, 0.0, half]])
+        if shape.tag == "capsule":
+            return Solid(link, placed(ends), radius, radius)
+        if abs(frame[0][2, 2]) >= UPRIGHT:
+            return Solid(link, placed(ends), radius)
+        turn = np.arange(SIDES) * (2.0 * np.pi / SIDES)
+        rim = radius * np.stack((np.cos(turn), np.sin(turn), 0.0 * turn), axis=-1)
+        return Solid(link, placed((ends[:, None] + rim).reshape(-1, 3)))
+    try:
+        points, faces = _mesh(shape.get("filename", ""))
+    except ValueError as error:
+        raise InputError(f"robot: link {link!r}: {error}") from error
+    return Solid(link, placed(points * numbers(shape, "scale")), faces=faces)
 
 
-def _points(corners: Array, frame: Frame) -> tuple[list[Disc], float]:
-    places = corners @ frame[0].T + frame[1]
-    return [(float(x), float(y), 0.0) for x, y, _ in places], float(places[:, 2].max())
-
-
-def _vertices(name: str) -> Array:
-    """Return the vertices of a mesh file, shape (n, 3).
+def _mesh(name: str) -> tuple[Array, NDArray[np.int64]]:
+    """Return the vertices of a mesh file, shape (n, 3), and its triangles, shape (m, 3).
 
     Raises
     ------
@@ -104,13 +143,15 @@ def _vertices(name: str) -> Array:
     # Slow to import, and needed for meshes alone.
     import trimesh
 
-    if not Path(name).is_file():
-        raise ValueError(f"there is no mesh {name!r}")
     try:
-        return np.asarray(trimesh.load_mesh(name).vertices, dtype=float)
+        mesh = trimesh.load_mesh(name)
+        vertices, faces = np.asarray(mesh.vertices, dtype=float), np.asarray(mesh.faces)
     except ImportError as error:
         raise ValueError(f"mesh {name!r}: {error}; or give it as STL or OBJ") from error
     except Exception as error:  # readers of a dozen formats raise what they like
         raise ValueError(
             f"mesh {name!r} cannot be read: {type(error).__name__}: {error}"
         ) from error
+    if not len(faces) or not np.isfinite(vertices).all():
+        raise ValueError(f"mesh {name!r}: must have triangles with finite corners")
+    return vertices, faces

@@ -9,8 +9,8 @@ from functools import cached_property
 import numpy as np
 
 from .errors import InputError
+from .frames import rotation
 from .motion import Array
-from .urdf import rotation
 
 FARTHEST = 2.0
 """Of a sensor from the handle, m: beyond the size of what two people walk with (inferred)."""

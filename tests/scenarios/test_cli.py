@@ -178,6 +178,19 @@ def test_a_run_is_filmed_and_recorded_on_demand(cowalk, scenario_file, folder):
     assert json.loads(out)["video"] == "films/walk.mp4"
 
 
+def test_a_robot_that_cannot_be_read_is_refused_where_it_is_named(refused, tmp_path):
+    robot = tmp_path / "own.urdf"
+    robot.write_text(
+        '<robot name="own"><link name="base"/><link name="grip"/><joint name="j" type="fixed">'
+        '<parent link="base"/><child link="grip"/><origin xyz="0 nan 1"/></joint></robot>'
+    )
+    said = refused("run", "walk", "--set", f"plant.parameters.robot.urdf={robot}")
+    place = (
+        """plant.parameters.robot: joint 'j': <origin xyz="0 nan 1">: must be 3 finite numbers"""
+    )
+    assert place in said
+
+
 def test_a_run_that_cannot_be_watched_is_refused(refused, scenario_file, monkeypatch):
     words = "--video walk.avi: the name must end in .mp4"
     assert words in refused("run", scenario_file(), "--video", "walk.avi")

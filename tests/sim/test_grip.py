@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cowalk.sim.errors import InputError
+from cowalk.sim.frames import rotation
 from cowalk.sim.grip import Bushing, GripParameters
-from cowalk.sim.urdf import rotation
 from cowalk.sim.wrench import SensorMount, in_base_frame, in_sensor_frame
 
 small = st.floats(-0.02, 0.02)

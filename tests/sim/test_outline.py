@@ -147,14 +147,13 @@ def test_a_robots_outline_is_that_of_its_shapes(chassis, mast, box, top, kind):
 @pytest.mark.parametrize(
     ("shape", "named"),
     [
-        ('|box size="0.4 0.4"', "link 'chassis'"),
-        ('|sphere r="0.1"', "link 'chassis': no 'radius'"),
-        ('|mesh filename="/nowhere/hull.stl"', "there is no mesh '/nowhere/hull.stl'"),
-        ('|cone radius="0.1"', "unknown shape 'cone'"),
         ('|box size="0 0 1"', "no breadth"),
+        ('|mesh filename="{}"', "link 'chassis': mesh '.*hull.stl': must have triangles"),
     ],
 )
-def test_shapes_that_are_none(shape, named):
+def test_shapes_that_are_none(tmp_path, shape, named):
+    (tmp_path / "hull.stl").write_text("solid nothing")
+    shape = shape.format(tmp_path / "hull.stl")
     with pytest.raises(InputError, match=named):
         outlined(shape)
 
