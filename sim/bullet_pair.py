@@ -23,6 +23,7 @@ from .grip import GripParameters
 from .human_body import arm_outlines, eye, human_body, trunk_outline
 from .motion import Array
 from .outline import Bodies
+from .overlap import refuse_overlap
 from .robot import RobotParameters, robot_of, two_hands
 from .stability import Masses
 from .walker import WalkerParameters
@@ -59,7 +60,8 @@ class Pair:
     Raises
     ------
     InputError
-        If the robot cannot be had, or the human cannot hold it, or gains are too high.
+        If the robot cannot be had, or the human cannot hold it or would stand inside it, or
+        gains are too high.
     """
 
     def __init__(self, parameters: PairParameters, step: float, held: int = 1) -> None:
@@ -80,6 +82,8 @@ class Pair:
         shift = robot.handle[:2] if carried else (0.0, 0.0)
         self.place = (x + shift[0], y + shift[1], yaw)
         """Where the trunk walks, base axes: m, m, rad."""
+        name = parameters.robot.handle
+        refuse_overlap(parameters.body, self.place, robot.solids, robot.handle, name)
         self.look = Look(robot.urdf, self.body, coupling if carried else None, robot.handle)
 
         load = coupling.load(robot.handle) if carried else None

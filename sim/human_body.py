@@ -127,9 +127,10 @@ def human_body(parameters: BodyParameters, handles: tuple[Vector, ...]) -> Human
     height = handles[0][2]
     arms = tuple(arm_of(parameters, side, height) for side in parameters.sides)
     if len(arms) == 2:
-        aside = handles[0][1] - arms[0].shoulder[1]
+        middle = (handles[0][1] + handles[1][1]) / 2.0
+        aside = handles[0][1] - middle - arms[0].shoulder[1]
         ahead = math.sqrt(arms[0].span(RELAXED_ELBOW) ** 2 - aside**2)
-        place = (handles[0][0] - ahead, 0.0, 0.0)
+        place = (handles[0][0] - ahead, middle, 0.0)
     else:
         (arm,) = arms
         usual = arm_of(BodyParameters(), parameters.hand, USUAL_HEIGHT)

@@ -13,7 +13,7 @@ from .outline import Outline, disc
 from .plant import BASE_RADIUS, CAMERA
 from .registry import did_you_mean
 from .urdf import Rigid, lump, mirrored, read_robot
-from .urdf_outline import robot_outline
+from .urdf_outline import Solid, robot_outline, robot_solids
 
 HANDLES_APART = 0.44
 """Distance of the two hands on one handle bar, m (inferred: shoulder breadth)."""
@@ -59,6 +59,8 @@ class Robot:
         Around its collision shapes, or if it has none around what is visible of it.
     camera : (x, y, z)
         Where it sees from, base axes, m.
+    solids : tuple of Solid
+        The shapes within the outline, one by one.
     """
 
     rigid: Rigid
@@ -67,6 +69,7 @@ class Robot:
     urdf: str
     outline: Outline
     camera: Vector
+    solids: tuple[Solid, ...]
 
 
 def robot_of(parameters: RobotParameters, hand: str, coupling: str) -> Robot:
@@ -90,11 +93,12 @@ def robot_of(parameters: RobotParameters, hand: str, coupling: str) -> Robot:
     handle = _place_of(rigid, "handle", parameters.handle)
     handles = two_hands(handle) if hand == "both" else (handle,)
     # A robot without any shape is taken for one as large as that which ships.
-    outline, top = robot_outline(root) or (disc(BASE_RADIUS), CAMERA[2])
+    solids = robot_solids(root)
+    outline, top = (disc(BASE_RADIUS), CAMERA[2]) if not solids else robot_outline(solids)
     camera = (outline.box[1], 0.0, top)
     if parameters.camera != RobotParameters.camera or parameters.camera in rigid.places:
         camera = _place_of(rigid, "camera", parameters.camera)
-    return Robot(rigid, handle, handles, _locked(root), outline, camera)
+    return Robot(rigid, handle, handles, _locked(root), outline, camera, solids)
 
 
 def _place_of(rigid: Rigid, parameter: str, name: str) -> Vector:

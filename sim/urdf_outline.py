@@ -53,10 +53,10 @@ class Solid:
         return float(self.points[:, 2].max()) + self.rise
 
 
-def robot_solids(root: ElementTree.Element) -> tuple[str, tuple[Solid, ...]]:
-    """Return which shapes of a robot count, and those, all joints at zero.
+def robot_solids(root: ElementTree.Element) -> tuple[Solid, ...]:
+    """Return the collision shapes of a robot, or if it has none the visible ones.
 
-    Its collision shapes count, or if it has none the visible ones ("collision", "visual").
+    All joints are at zero; a robot may have neither.
 
     Parameters
     ----------
@@ -78,26 +78,21 @@ def robot_solids(root: ElementTree.Element) -> tuple[str, tuple[Solid, ...]]:
         )
         if solids:
             break
-    return kind, solids
+    return solids
 
 
-def robot_outline(root: ElementTree.Element) -> tuple[Outline, float] | None:
-    """Return the convex outline of a robot, all joints at zero, and how high it is (m).
-
-    None if it has no shapes; see `robot_solids`.
+def robot_outline(solids: tuple[Solid, ...]) -> tuple[Outline, float]:
+    """Return the convex outline around the shapes of a robot, and how high they are (m).
 
     Raises
     ------
     InputError
-        If a mesh cannot be read, or the shapes have no breadth.
+        If the shapes have no breadth.
     """
-    kind, solids = robot_solids(root)
-    if not solids:
-        return None
     try:
         outline = hull(disc for solid in solids for disc in solid.discs)
     except ValueError as error:
-        raise InputError(f"robot.urdf: its {kind} shapes have no breadth") from error
+        raise InputError("robot: its shapes have no breadth") from error
     return outline, max(0.0, *(solid.top for solid in solids))
 
 

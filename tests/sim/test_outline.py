@@ -20,7 +20,7 @@ from cowalk.sim.path import Path
 from cowalk.sim.plants import PLANTS
 from cowalk.sim.robot import RobotParameters, robot_of
 from cowalk.sim.seats import SEATS
-from cowalk.sim.urdf_outline import robot_outline
+from cowalk.sim.urdf_outline import robot_outline, robot_solids
 from cowalk.sim.world import Corridor, Furniture, Obstacle, Pedestrian, Wall, World
 
 PATH = Path(((0.0, 0.0), (20.0, 0.0)))
@@ -113,7 +113,7 @@ def outlined(chassis, mast="", kind="collision"):
         return f"<{kind}><origin {origin}/><geometry><{geometry}/></geometry></{kind}>"
 
     parts = (shape(text) if text else "" for text in (chassis, mast))
-    return robot_outline(ElementTree.fromstring(SHAPES.format(*parts)))
+    return robot_outline(robot_solids(ElementTree.fromstring(SHAPES.format(*parts))))
 
 
 @pytest.mark.parametrize(

@@ -147,7 +147,7 @@ INERTIAL, VISUAL = "link 'chassis', <inertial>", "link 'chassis', <visual>"
         (
             '<child link="mast"/>',
             '<child link="chassis"/>',
-            "joints above link 'chassis' form a loop",
+            "above link 'chassis' form a loop",
         ),
     ],
 )
