@@ -14,7 +14,7 @@ from .bullet_coupling import CouplingParameters, Load, load_outline
 from .bullet_engine import connect, disconnect, engine
 from .bullet_grip import Hands
 from .bullet_view import Look
-from .bullet_wheels import WheelBase
+from .bullet_wheels import WheelBase, refuse_wide_track
 from .drive import DriveParameters
 from .errors import InputError
 from .frames import Vector
@@ -69,6 +69,8 @@ class Pair:
         if drive.kind == "wheels" and parameters.robot.urdf is not None:
             raise InputError("drive.kind = 'wheels': only the robot that ships has wheels")
         robot = robot_of(parameters.robot, hand, coupling.kind)
+        if drive.kind == "wheels":
+            refuse_wide_track(robot.rigid, drive)
         carried = coupling.kind == "stretcher"
         self.handle: Vector = robot.handle
         """Where the force on the base is measured, base axes, m."""

@@ -8,6 +8,7 @@ from typing import Any
 from .bullet_bodies import State, free_body
 from .bullet_engine import Snapshot, engine, load
 from .drive import Command, DriveParameters
+from .errors import InputError
 from .frames import Vector
 from .urdf import Rigid
 
@@ -15,6 +16,8 @@ WHEEL_MASS, WHEEL_WIDTH = 1.5, 0.04
 """Of a driven wheel, kg and m (inferred)."""
 CASTER_RADIUS, CASTER_AHEAD = 0.05, 0.20
 """The casters are frictionless balls ahead of and behind the axle, m (inferred)."""
+BODY_SHARE = 0.1
+"""Of the base's moment of inertia about the vertical, what its body has at least (inferred)."""
 GRAVITY = 9.81
 
 _LINK = (
@@ -24,11 +27,35 @@ _LINK = (
 )
 
 
-def _urdf(rigid: Rigid, parameters: DriveParameters) -> str:
+def refuse_wide_track(rigid: Rigid, parameters: DriveParameters) -> None:
+    """Refuse wheels so far apart that their moment of inertia leaves too little for the body.
+
+    Raises
+    ------
+    InputError
+        With the widest track that does.
+    """
+    track = parameters.wheel_track
+    share = (1.0 - BODY_SHARE) * rigid.yaw_inertia - 2.0 * _across(parameters)
+    widest = math.floor(100.0 * math.sqrt(2.0 * share / WHEEL_MASS)) / 100.0
+    if track > widest:
+        raise InputError(
+            f"drive.wheel_track = {track} m: wheels of {WHEEL_MASS} kg so far apart take more than "
+            f"{1.0 - BODY_SHARE:.0%} of the base's {rigid.yaw_inertia:.3g} kg m^2; must be "
+            f"{widest:g} m or less with wheel_radius = {parameters.wheel_radius:g} m"
+        )
+
+
+def _across(parameters: DriveParameters) -> float:
+    """Return a wheel's moment of inertia across its axle, about its own centre, kg m^2."""
+    return WHEEL_MASS * (3.0 * parameters.wheel_radius**2 + WHEEL_WIDTH**2) / 12.0
+
+
+def wheels_urdf(rigid: Rigid, parameters: DriveParameters) -> str:
     """Return the base on two wheels and two casters; what the wheels weigh is the body's share."""
     radius, half = parameters.wheel_radius, parameters.wheel_track / 2.0
     spin = WHEEL_MASS * radius**2 / 2.0
-    across = WHEEL_MASS * (3.0 * radius**2 + WHEEL_WIDTH**2) / 12.0
+    across = _across(parameters)
     mass = rigid.mass - 2.0 * WHEEL_MASS
     yaw = rigid.yaw_inertia - 2.0 * WHEEL_MASS * half**2 - 2.0 * across
     x, y, z = rigid.centre
@@ -85,7 +112,7 @@ class WheelBase:
         engine.changeDynamics(floor, -1, lateralFriction=1.0, physicsClientId=client)
         self.body = body = load(
             client,
-            _urdf(rigid, parameters),
+            wheels_urdf(rigid, parameters),
             fixed=False,
             flags=engine.URDF_USE_INERTIA_FROM_FILE,
         )
