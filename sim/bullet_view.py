@@ -28,7 +28,10 @@ from .world import World
 
 CLOTH = (0.85, 0.80, 0.62, 1.0)
 CAMERA_DISTANCE, CAMERA_PITCH, CAMERA_SIDE, CAMERA_FIELD = 3.3, -24.0, 32.0, 50.0
-"""Chase camera: m, degrees, degrees to the left of straight behind the base, degrees."""
+"""Chase camera: m, degrees, degrees to the left of straight behind the base, degrees. So far
+away for a person of `CAMERA_SUITS`; for taller ones it backs off and looks higher."""
+CAMERA_HEIGHT, CAMERA_SUITS = 0.8, 1.75
+"""How high it looks, and the height of a person who fits into its picture with some air, m."""
 TOP_DISTANCE, TOP_FIELD, TOP_AHEAD = 24.0, 10.0, 0.8
 """Top camera, far away so that it hardly distorts: m, degrees, m ahead of the pair."""
 
@@ -77,7 +80,9 @@ class Viewer:
     def __init__(self, world: World, look: Look, gui: bool = False) -> None:
         self.world = world
         self._gui = gui
-        self._target = (0.0, 0.0, 0.8)
+        scale = max(1.0, look.human.parameters.height / CAMERA_SUITS)
+        self._aim, self._distance = scale * CAMERA_HEIGHT, scale * CAMERA_DISTANCE
+        self._target = (0.0, 0.0, self._aim)
         self._yaw = 0.0
         self._shown = 0.0
         self._client = connect(gui)
@@ -157,11 +162,11 @@ class Viewer:
         for name, angle in angles.items():
             if name in self._joints:
                 engine.resetJointState(self._human, self._joints[name], angle, 0.0, self._client)
-        self._target = ((base[0] + human[0]) / 2.0, (base[1] + human[1]) / 2.0, 0.8)
+        self._target = ((base[0] + human[0]) / 2.0, (base[1] + human[1]) / 2.0, self._aim)
         self._yaw = math.degrees(base[2]) - 90.0 - CAMERA_SIDE
         if self._gui:
             engine.resetDebugVisualizerCamera(
-                CAMERA_DISTANCE, self._yaw, CAMERA_PITCH, self._target, self._client
+                self._distance, self._yaw, CAMERA_PITCH, self._target, self._client
             )
 
     def _put(self, body: int, place: tuple[float, ...]) -> None:
@@ -204,7 +209,7 @@ class Viewer:
             x, y, _ = self._target
             ahead = (x + TOP_AHEAD, 0.0 if self.world.corridor else y, 0.0)
             return look_at(ahead, TOP_DISTANCE, 0.0, -89.99, TOP_FIELD, size)
-        return look_at(self._target, CAMERA_DISTANCE, self._yaw, CAMERA_PITCH, CAMERA_FIELD, size)
+        return look_at(self._target, self._distance, self._yaw, CAMERA_PITCH, CAMERA_FIELD, size)
 
     def picture(self, width: int, height: int) -> NDArray[np.uint8]:
         """Return what the chase camera sees, uint8, shape (height, width, 3)."""

@@ -11,8 +11,13 @@ from cowalk.scenarios import load, make_env, run
 from cowalk.scenarios.results import UNITS, Trace
 from cowalk.scenarios.video import ARROW_ABOVE, Video
 from cowalk.scenarios.video_frame import FORCE, HEADER, HEIGHT, INSET, VIEW, WIDTH
-from cowalk.sim.bullet_scene import Scene
+from cowalk.sim.bullet import BulletPlant
+from cowalk.sim.bullet_scene import Scene, look_at
+from cowalk.sim.bullet_view import CAMERA_SIDE
 from cowalk.sim.errors import InputError
+from cowalk.sim.path import Path
+from cowalk.sim.plant import Rates
+from cowalk.sim.world import World
 
 SHORT = "duration=0.3"
 
@@ -114,6 +119,30 @@ def test_hand_and_handle_are_where_the_arrow_starts():
     assert not actors[:20].any(), "nobody in the sky"
     assert 0.02 < actors.mean() < 0.3
     env.close()
+
+
+@pytest.mark.parametrize("hand", ["left", "right", "both"])
+@pytest.mark.parametrize("coupling", ["handle", "stretcher"])
+@pytest.mark.parametrize("height", [1.2, 1.75, 2.2])
+def test_people_of_any_height_are_wholly_in_the_picture_with_some_air(height, coupling, hand):
+    body = {"height": height, "mass": 70.0 * (height / 1.75) ** 2, "hand": hand}
+    plant = BulletPlant(Rates(), body=body, coupling={"kind": coupling})
+    state = plant.reset(World(Path(((0.0, 0.0), (20.0, 0.0)))), np.random.default_rng(0))
+    viewer = plant.viewer()
+    camera = viewer.camera("chase", *VIEW)
+    actors = np.asarray(viewer.look(camera)[1]) > 0
+    plant.close()
+    rows, columns = (np.flatnonzero(actors.any(axis=axis)) for axis in (1, 0))
+    for found, size in ((rows, VIEW[1]), (columns, VIEW[0])):
+        assert 0.05 * size < found[0] < found[-1] < 0.97 * size
+    head = camera.project((*state.human_pose[:2], height))[1]
+    feet = camera.project((*state.human_pose[:2], 0.0))[1]
+    assert 0.3 * VIEW[1] < feet - head < 0.8 * VIEW[1], "and not far away either"
+    if height <= 1.75:
+        middle = np.add(state.pose[:2], state.human_pose[:2]) / 2.0
+        usual = look_at((*middle, 0.8), 3.3, -90.0 - CAMERA_SIDE, -24.0, 50.0, VIEW)
+        np.testing.assert_array_equal(camera.view, usual.view)
+        np.testing.assert_array_equal(camera.projection, usual.projection)
 
 
 @pytest.mark.parametrize(("share", "other"), [(0.25, 0.75), (0.75, 0.25)])
