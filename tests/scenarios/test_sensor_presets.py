@@ -106,6 +106,23 @@ def test_shares_of_lost_and_saturated_samples_are_told(with_sensor):
     assert well is None
 
 
+@pytest.mark.parametrize(
+    ("share", "said"),
+    [
+        (1.0, "100 %"),
+        (0.9996, "over 99 %"),
+        (0.994, "99 %"),
+        (0.123, "12 %"),
+        (0.0996, "10 %"),
+        (0.0512, "5.1 %"),
+        (0.000814, "0.081 %"),
+    ],
+)
+def test_a_share_is_said_in_plain_digits(share, said):
+    summary = {"sensor": {"saturated": share, "lost": 0.0}}
+    assert sensor_faults(summary) == f"{said} of samples at the end of a channel's range"
+
+
 OPTIONS = list(itertools.product(PRESETS, DRIVES, GRIPS, COUPLINGS))
 
 
