@@ -21,7 +21,7 @@ from .gait import Gait, GaitParameters
 from .grip import GripParameters
 from .motion import Array
 from .outline import Bodies
-from .parameters import parameters
+from .parameters import parameters, require_flag
 from .plant import PlantState, Rates
 from .robot import RobotParameters
 from .walker import Walker, WalkerParameters
@@ -78,6 +78,7 @@ class BulletPlant:
         mount: SensorMount = SensorMount(),
         gui: bool = False,
     ) -> None:
+        require_flag("gui", gui)
         self._rates = rates
         step = 1.0 / rates.physics
         walker = parameters("walker", WalkerParameters, walker)

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from .bullet_bodies import Base, Slab
 from .bullet_engine import engine
 from .bullet_grip import Wrench
-from .errors import InputError
 from .outline import Outline, rectangle
-from .parameters import Range, require_effect, require_ranges
+from .parameters import Range, require_choices, require_effect, require_ranges
 from .urdf import Rigid, Vector
 
 COUPLINGS = ("handle", "stretcher")
@@ -48,8 +47,7 @@ class CouplingParameters:
     width: float = 0.5
 
     def __post_init__(self) -> None:
-        if self.kind not in COUPLINGS:
-            raise InputError(f"kind = {self.kind!r}: must be one of {', '.join(COUPLINGS)}")
+        require_choices(self, {"kind": COUPLINGS})
         require_ranges(self, RANGES)
         require_effect(self, {"stretcher": RANGES})
 

@@ -6,8 +6,7 @@ from collections import deque
 from dataclasses import dataclass
 from typing import Any
 
-from .errors import InputError
-from .parameters import Range, require_effect, require_ranges
+from .parameters import Range, require_choices, require_effect, require_ranges
 from .wheels import limited
 
 DRIVES = ("slip", "wheels")
@@ -87,8 +86,7 @@ class DriveParameters:
     friction: float = 0.9
 
     def __post_init__(self) -> None:
-        if self.kind not in DRIVES:
-            raise InputError(f"kind = {self.kind!r}: must be one of {', '.join(DRIVES)}")
+        require_choices(self, {"kind": DRIVES})
         require_ranges(self, RANGES)
         require_effect(self, ONLY)
 
