@@ -168,7 +168,7 @@ class BulletPlant:
         apply, read_human = pair.human.apply, pair.human.read
         forces, acts = self._walker.forces, hands.acts
         measure = load.read if load else hands.read
-        check = load is not None and self._grip.release_force is not None
+        check = self._grip.release_force is not None
         rates, held = self._rates, self._held
         sampled, substep = rates.physics // rates.sensor, 0
         samples: list[float] = []
@@ -193,8 +193,8 @@ class BulletPlant:
                 substep += 1
                 if substep % sampled == 0:
                     samples += measure(cos, sin)
-                    if check:
-                        hands.read(cos, sin)
+                if check and (load or substep % sampled):
+                    hands.read(cos, sin)  # which lets go
             human = read_human()
         pair.base_state, pair.human_state = base, human
         if load:

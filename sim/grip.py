@@ -40,7 +40,8 @@ class GripParameters:
     slip_length : float
         How far it can slide before it is lost, m.
     release_force : float, optional
-        Force beyond which the hand lets go, N; None never does.
+        Force beyond which the hand lets go, N, judged in every physics step; that of both hands
+        together where both hold. None never does.
     on_loss : {"end", "stop"}
         What a lost grip does: end the episode, or let the base come to a stop.
 
