@@ -6,6 +6,7 @@ from collections import deque
 from dataclasses import dataclass
 from typing import Any
 
+from .errors import InputError
 from .parameters import Range, require_choices, require_effect, require_ranges
 from .wheels import limited
 

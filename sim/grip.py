@@ -12,7 +12,7 @@ GRIPS = ("rigid", "compliant")
 ON_LOSS = ("end", "stop")
 RANGES: dict[str, Range] = {
     "slip_force": (0.1, 1e4, "N"),
-    "slip_length": (1e-4, 1.0, "m"),
+    "slip_length": (1e-4, 100.0, "m"),
     "release_force": (0.1, 1e4, "N"),
 }
 """What a hand can do, with room to spare (inferred)."""
