@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import gc
 import os
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
 
 from cowalk.scenarios.loading import load
 from cowalk.scenarios.runner import make_env
-from cowalk.sim.bullet import BulletPlant
 from cowalk.sim.bullet_engine import connect, disconnect
-from cowalk.sim.drive import DRIVES, DriveParameters
-from cowalk.sim.env import STRAIGHT_CORRIDOR
-from cowalk.sim.plant import Rates
+from cowalk.sim.drive import DRIVES
+from cowalk.sim.env import CowalkEnv
 
 from .timing import best
 
@@ -22,12 +22,17 @@ COUNTS = (1, 4, 16)
 STEPS = 320
 """Control steps in all, shared by the environments of a count."""
 CYCLES = 1000
-"""Plants that are made and closed, of each drive."""
+"""Environments that are made and closed, of each drive."""
+TOGETHER = 10
+"""Environments that are open at once to see what memory one takes."""
 
 
 def measure() -> list[tuple[str, float, str]]:
     """Return rows of (what, value, unit)."""
-    return [*_stepping(), *_coming_and_going()]
+    # In a process of its own: here earlier ones may have left memory to use again.
+    with ProcessPoolExecutor(1, get_context("spawn")) as apart:
+        taken = apart.submit(_taken).result()
+    return [*_stepping(), ("memory of an environment", taken / 1e6, "MB"), *_left()]
 
 
 def _stepping() -> list[tuple[str, float, str]]:
@@ -53,34 +58,48 @@ def _stepping() -> list[tuple[str, float, str]]:
     ]
 
 
-def _coming_and_going() -> list[tuple[str, float, str]]:
-    def memory() -> float:
-        pages = int(Path("/proc/self/statm").read_text().split()[1])
-        return pages * os.sysconf("SC_PAGE_SIZE")
+def _memory() -> float:
+    """Return what this process takes, bytes."""
+    pages = int(Path("/proc/self/statm").read_text().split()[1])
+    return float(pages * os.sysconf("SC_PAGE_SIZE"))
 
+
+def _taken() -> float:
+    """Return what an environment takes, beside what all of them share, bytes."""
+    world = load("doorway").world
+    CowalkEnv(world).close()
+    before = _memory()
+    envs = [CowalkEnv(world) for _ in range(TOGETHER)]
+    taken = (_memory() - before) / TOGETHER
+    for env in envs:
+        env.close()
+    return taken
+
+
+def _left() -> list[tuple[str, float, str]]:
     def next_client() -> int:
         client = connect()
         disconnect(client)
         return client
 
-    rows = []
+    world, rows = load("doorway").world, []
     for drive in DRIVES:
 
         def cycle(drive: str = drive) -> None:
-            plant = BulletPlant(Rates(), drive=DriveParameters(kind=drive))
-            plant.reset(STRAIGHT_CORRIDOR, np.random.default_rng(0))
-            plant.step((0.8, 0.0), (0.0, 0.0))
-            plant.save()
-            plant.close()
+            env = CowalkEnv(world, plant_parameters={"drive": {"kind": drive}})
+            env.reset(seed=0)
+            env.step({"human": np.zeros(2), "automation": np.array([0.8, 0.0])})
+            env.save()
+            env.close()
 
         for _ in range(50):
             cycle()
         gc.collect()
-        client, before = next_client(), memory()
+        client, before = next_client(), _memory()
         for _ in range(CYCLES):
             cycle()
         gc.collect()
         what = f"left by {CYCLES} create-close cycles, {drive}"
-        rows.append((f"memory {what}", (memory() - before) / 1e6, "MB"))
+        rows.append((f"memory {what}", (_memory() - before) / 1e6, "MB"))
         rows.append((f"clients {what}", float(next_client() - client), "1"))
     return rows

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import subprocess
 import sys
@@ -19,9 +20,15 @@ COMMAND = Path(sys.executable).parent / "cowalk"
 
 
 def output(*arguments: str) -> str:
-    """Return what a command prints."""
+    """Return what a command prints, where no terminal says how wide it is."""
+    environment = {name: value for name, value in os.environ.items() if name != "COLUMNS"}
     done = subprocess.run(
-        [COMMAND, *arguments], cwd=ROOT, capture_output=True, text=True, check=True
+        [COMMAND, *arguments],
+        cwd=ROOT,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=True,
     )
     return "\n".join(line.rstrip() for line in done.stdout.strip().splitlines())
 
@@ -44,9 +51,19 @@ def quote(file: Path, name: str, text: str) -> None:
     file.write_text(pattern.sub(lambda found: found[1] + text + found[2], before))
 
 
+def printed_by_run(folder: str) -> str:
+    """Return what the README's run prints, with its folder as the README has it."""
+    return output("run", "puddle", "--out", f"{folder}/puddle").replace(folder, "runs")
+
+
 def fenced(text: str, language: str = "text") -> str:
     """Return text as a code block."""
     return f"```{language}\n{text}\n```"
+
+
+def shipped(name: str) -> str:
+    """Return a scenario file that ships."""
+    return (ROOT / "scenarios" / "library" / f"{name}.scenario.yaml").read_text().rstrip()
 
 
 def preset_table() -> str:
@@ -64,9 +81,7 @@ def main() -> None:
     """Rerun and quote everything."""
     images = DOCS / "images"
     with tempfile.TemporaryDirectory() as folder:
-        printed = output("run", "puddle", "--out", f"{folder}/puddle")
-        printed = printed.replace(folder, "runs")
-        quote(ROOT / "README.md", "run", fenced(printed))
+        quote(ROOT / "README.md", "run", fenced(printed_by_run(folder)))
         (images / "puddle.png").write_bytes(Path(folder, "puddle", "figure.png").read_bytes())
         film = f"{folder}/puddle.mp4"
         output("run", "puddle", "--out", f"{folder}/filmed", "--video", film)
@@ -78,8 +93,7 @@ def main() -> None:
     output("humans", "table", "--write", str(DOCS / "humans.md"))
     quote(DOCS / "model.md", "paper", fenced(output("paper")))
     for file, name in (("scenarios.md", "puddle"), ("world.md", "doorway")):
-        text = (ROOT / "scenarios" / "library" / f"{name}.scenario.yaml").read_text().rstrip()
-        quote(DOCS / file, name, fenced(text, "yaml"))
+        quote(DOCS / file, name, fenced(shipped(name), "yaml"))
     quote(DOCS / "sensor.md", "presets", preset_table())
     quote(DOCS / "plant.md", "contact-noise", measured("contact noise"))
 

@@ -11,11 +11,11 @@ from pydantic import ValidationError
 from cowalk.agents.registry import AUTOMATIONS, HUMANS, IMPERFECTIONS
 from cowalk.estimation.observers import OBSERVERS
 from cowalk.estimation.smoothing import SMOOTHERS
+from cowalk.sim.arguments import require_reachable
 from cowalk.sim.contact import blocked_start
 from cowalk.sim.errors import InputError
 from cowalk.sim.plants import PLANTS
 from cowalk.sim.registry import Registry
-from cowalk.sim.sensor import ForceSensor
 from cowalk.sim.sensor_parameters import SensorParameters, sensor_preset
 
 from .building import attempt, check_parameters, complete
@@ -69,9 +69,9 @@ def check(document: Document) -> tuple[Scenario | None, list[Problem]]:
         except InputError as error:
             problems.append(Problem(("automation", "negotiation", "period"), str(error)))
         try:
-            ForceSensor(scenario.sensor, scenario.rates.sensor)
+            require_reachable(scenario.pace, scenario.bounds)
         except InputError as error:
-            problems.append(Problem(("sensor",), str(error)))
+            problems.append(Problem(("pace",), str(error)))
         problems += _too_late(scenario)
         problems += _never_come(scenario)
     return scenario, problems
@@ -177,7 +177,7 @@ def _agents(scenario: Scenario) -> list[Problem]:
 
 
 def _too_late(scenario: Scenario) -> list[Problem]:
-    """Return which delays are as long as the run, so that it would be over before they are."""
+    """Return what takes as long as the run, so that it would be over before."""
     drive = scenario.plant.parameters.get("drive")
     delays: list[tuple[KeyPath, Any]] = [
         (("sensor", "latency"), scenario.sensor.latency),
@@ -186,15 +186,17 @@ def _too_late(scenario: Scenario) -> list[Problem]:
     for index, item in enumerate(scenario.human.imperfections):
         path = ("human", "imperfections", index, "parameters", "delay")
         delays.append((path, item.parameters.get("delay")))
-    return [
-        Problem(
-            path,
-            f"{dotted(path)} = {delay:g} s: must be shorter than the run, "
-            f"duration = {scenario.duration:g} s",
-        )
+    run = f"the run, duration = {scenario.duration:g} s"
+    found = [
+        Problem(path, f"{dotted(path)} = {delay:g} s: must be shorter than {run}")
         for path, delay in delays
         if isinstance(delay, int | float) and delay >= scenario.duration
     ]
+    rate = scenario.sensor.rate
+    if 0.0 < rate * scenario.duration <= 1.0:
+        what = f"sensor.rate = {rate:g} Hz: must convert more than once in {run}"
+        found.append(Problem(("sensor", "rate"), what))
+    return found
 
 
 def _never_come(scenario: Scenario) -> list[Problem]:

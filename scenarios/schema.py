@@ -4,17 +4,29 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from cowalk.agents.automations.settings import NegotiationSettings
 from cowalk.agents.humans.intention import IntentionSettings
+from cowalk.sim.arguments import RANGES
 from cowalk.sim.motion import TwistBounds
+from cowalk.sim.parameters import require_range
 from cowalk.sim.plant import Rates
 from cowalk.sim.sensor_parameters import SensorParameters
 from cowalk.sim.world import World
 
 SUFFIX = ".scenario.yaml"
 """How the name of a scenario file ends."""
+
+
+def _within(name: str) -> AfterValidator:
+    """Return what refuses a number that no environment can be made with."""
+
+    def judged(value: float) -> float:
+        require_range(name, value, RANGES[name])
+        return value
+
+    return AfterValidator(judged)
 
 
 class Component(BaseModel):
@@ -56,14 +68,14 @@ class Scenario(BaseModel):
     name: Annotated[str, Field(pattern=r"^[^./][^/]*$")]
     description: str = ""
     seed: Annotated[int, Field(ge=0)] = 0
-    duration: Annotated[float, Field(gt=0.0, allow_inf_nan=False)] = 30.0
-    pace: Annotated[float, Field(gt=0.0, allow_inf_nan=False)] = 0.8
+    duration: Annotated[float, _within("duration")] = 30.0
+    pace: Annotated[float, _within("pace")] = 0.8
     plant: Component = Component(name="bullet")
     rates: Rates = Rates()
     world: World
     sensor: SensorParameters = SensorParameters()
     bounds: TwistBounds = TwistBounds()
-    force_limit: Annotated[float, Field(gt=0.0, allow_inf_nan=False)] = 30.0
+    force_limit: Annotated[float, _within("force_limit")] = 30.0
     human: HumanComponent
     automation: AutomationComponent
     expect: dict[str, str] = Field(default_factory=dict)

@@ -38,11 +38,19 @@ class SampleCount:
         }
 
 
+def percent(share: float) -> str:
+    """Return a share in per cent with two digits, or whole; all of it is said of nothing less."""
+    value = 100.0 * share
+    if value < 9.95:
+        return f"{value:.2g} %"
+    return f"{value:.0f} %" if share == 1.0 or value < 99.5 else "over 99 %"
+
+
 def sensor_faults(summary: Mapping[str, Any]) -> str | None:
     """Return what a run's summary says of its sensor, in words; None if all samples were well."""
     shares = summary.get("sensor") or {}
     said = [
-        f"{100.0 * shares[fault]:.2g} % of samples {words}"
+        f"{percent(shares[fault])} of samples {words}"
         for fault, words in FAULTS.items()
         if shares.get(fault)
     ]

@@ -18,7 +18,7 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from .errors import InputError
+from .parameters import Range, require_choices, require_ranges
 
 
 class SegmentRatios(NamedTuple):
@@ -56,6 +56,11 @@ YAW_GYRATION = 0.0748
 makes 1.2 kg m^2 at 70 kg and 1.75 m."""
 
 
+HANDS = ("left", "right", "both")
+RANGES: dict[str, Range] = {"height": (1.2, 2.2, "m"), "mass": (20.0, 200.0, "kg")}
+"""Of adults and children who walk with a robot (inferred)."""
+
+
 @dataclass(frozen=True)
 class BodyParameters:
     """A human.
@@ -81,20 +86,13 @@ class BodyParameters:
     hand: str = "left"
 
     def __post_init__(self) -> None:
-        if not 1.2 <= self.height <= 2.2:
-            raise InputError(f"height = {self.height} m: must lie between 1.2 and 2.2 m")
-        if not 20.0 <= self.mass <= 200.0:
-            raise InputError(f"mass = {self.mass} kg: must lie between 20 and 200 kg")
-        if self.hand not in HANDS:
-            raise InputError(f"hand = {self.hand!r}: must be one of {', '.join(HANDS)}")
+        require_ranges(self, RANGES)
+        require_choices(self, {"hand": HANDS})
 
     @property
     def sides(self) -> tuple[str, ...]:
         """The arms that hold on."""
         return ("left", "right") if self.hand == "both" else (self.hand,)
-
-
-HANDS = ("left", "right", "both")
 
 
 class Segment(NamedTuple):

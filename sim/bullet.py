@@ -21,7 +21,7 @@ from .gait import Gait, GaitParameters
 from .grip import GripParameters
 from .motion import Array
 from .outline import Bodies
-from .parameters import parameters
+from .parameters import parameters, require_flag
 from .plant import PlantState, Rates
 from .robot import RobotParameters
 from .walker import Walker, WalkerParameters
@@ -78,6 +78,7 @@ class BulletPlant:
         mount: SensorMount = SensorMount(),
         gui: bool = False,
     ) -> None:
+        require_flag("gui", gui)
         self._rates = rates
         step = 1.0 / rates.physics
         walker = parameters("walker", WalkerParameters, walker)
@@ -167,7 +168,7 @@ class BulletPlant:
         apply, read_human = pair.human.apply, pair.human.read
         forces, acts = self._walker.forces, hands.acts
         measure = load.read if load else hands.read
-        check = load is not None and self._grip.release_force is not None
+        check = self._grip.release_force is not None
         rates, held = self._rates, self._held
         sampled, substep = rates.physics // rates.sensor, 0
         samples: list[float] = []
@@ -192,8 +193,8 @@ class BulletPlant:
                 substep += 1
                 if substep % sampled == 0:
                     samples += measure(cos, sin)
-                    if check:
-                        hands.read(cos, sin)
+                if check and (load or substep % sampled):
+                    hands.read(cos, sin)  # which lets go
             human = read_human()
         pair.base_state, pair.human_state = base, human
         if load:

@@ -7,10 +7,9 @@ from dataclasses import dataclass
 from .bullet_bodies import Base, Slab
 from .bullet_engine import engine
 from .bullet_grip import Wrench
-from .errors import InputError
 from .frames import Vector
 from .outline import Outline, rectangle
-from .parameters import Range, require_effect, require_ranges
+from .parameters import Range, require_choices, require_effect, require_ranges
 from .urdf import Rigid
 
 COUPLINGS = ("handle", "stretcher")
@@ -49,8 +48,7 @@ class CouplingParameters:
     width: float = 0.5
 
     def __post_init__(self) -> None:
-        if self.kind not in COUPLINGS:
-            raise InputError(f"kind = {self.kind!r}: must be one of {', '.join(COUPLINGS)}")
+        require_choices(self, {"kind": COUPLINGS})
         require_ranges(self, RANGES)
         require_effect(self, {"stretcher": RANGES})
 

@@ -12,7 +12,7 @@ import os
 import sys
 import weakref
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -71,10 +71,33 @@ def connect(gui: bool = False) -> int:
         )
     with quiet(1):
         client: int = engine.connect(engine.GUI if gui else engine.DIRECT)
-    if client < 0:
+    if client < 0 and gui:
         raise InputError("no window can be opened: another one is open in this process")
+    if client < 0:
+        raise InputError(
+            "the engine opens no further world in this process: close environments that are not "
+            "needed any more"
+        )
     _opened[client] += 1
     return client
+
+
+def free_with(owner: object, client: int) -> Callable[[], object]:
+    """Let a client be freed with the object that owns it.
+
+    Returns
+    -------
+    callable
+        Frees it at once; further calls do nothing.
+    """
+    end = weakref.finalize(owner, _free, client, _opened[client])
+    end.atexit = False  # by then the engine may be gone
+    return end
+
+
+def _free(client: int, opened: int) -> None:
+    if _opened[client] == opened:
+        disconnect(client)
 
 
 def _display_opens() -> bool:

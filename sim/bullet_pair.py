@@ -11,7 +11,7 @@ import numpy as np
 from .anthropometry import BodyParameters
 from .bullet_bodies import Base, Chain, SlipBase, State
 from .bullet_coupling import CouplingParameters, Load, load_outline
-from .bullet_engine import connect, disconnect, engine
+from .bullet_engine import connect, engine, free_with
 from .bullet_grip import Hands
 from .bullet_view import Look
 from .bullet_wheels import WheelBase, refuse_wide_track
@@ -99,6 +99,7 @@ class Pair:
 
         # Nothing is refused from here on, so that no client is left behind.
         self.client = client = connect()
+        self._free = free_with(self, client)
         engine.setTimeStep(step, client)
         engine.setPhysicsEngineParameter(
             numSolverIterations=SOLVER_ITERATIONS[drive.kind],
@@ -182,4 +183,4 @@ class Pair:
 
     def close(self) -> None:
         """Free the world. May be called twice."""
-        disconnect(self.client)
+        self._free()

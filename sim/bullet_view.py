@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from .bullet_coupling import THICKNESS, CouplingParameters
-from .bullet_engine import connect, disconnect, engine, load
+from .bullet_engine import connect, engine, free_with, load
 from .bullet_scene import look_at, photograph
 from .bullet_scenery import Scenery
 from .camera import Camera
@@ -86,6 +86,7 @@ class Viewer:
         self._yaw = 0.0
         self._shown = 0.0
         self._client = connect(gui)
+        self._free = free_with(self, self._client)
         if gui:
             engine.configureDebugVisualizer(engine.COV_ENABLE_GUI, 0, physicsClientId=self._client)
             engine.configureDebugVisualizer(
@@ -230,4 +231,4 @@ class Viewer:
 
     def close(self) -> None:
         """Free the world. May be called twice."""
-        disconnect(self._client)
+        self._free()

@@ -1,16 +1,19 @@
 """Distances in PyBullet: the outlines of bodies among the shapes of a world.
 
-They stand in an engine world of their own, since shapes that may touch would slow every physics
-step down, while distances are asked for once a control step.
+They stand in an engine world apart, since shapes that may touch would slow every physics step
+down, while distances are asked for once a control step (see `cowalk.sim.bullet_shared`).
 """
 
 from __future__ import annotations
 
 import math
+import weakref
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
-from .bullet_engine import connect, disconnect, engine
+from .bullet_engine import engine
+from .bullet_shared import SHARED
 from .footprint import furniture, walls
 from .heights import WALL_HEIGHT
 from .outline import Outline
@@ -27,9 +30,6 @@ SLACK = 0.01
 AHEAD = 0.4
 """How much farther than the nearest body's distance others are looked around, m: less is asked
 more often, more is slower to ask."""
-KEPT = 4
-"""Empty engine worlds kept for the next ones: emptying one takes a tenth of opening one."""
-_idle: list[int] = []
 UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 
 
@@ -67,7 +67,10 @@ class EngineClearance:
     """
 
     def __init__(self, world: World, parts: Sequence[tuple[int, Outline]]) -> None:
-        self._client = _empty_client()
+        self._client = SHARED.enter()
+        self._made: list[int] = []
+        self._free = weakref.finalize(self, SHARED.leave, self._client, self._made)
+        self._free.atexit = False  # by then the engine may be gone
         self._time = 0.0
         self._walkers = [
             (walker, self._body(self._round(walker.radius))) for walker in world.pedestrians
@@ -77,11 +80,8 @@ class EngineClearance:
         boxes = [(wall, WALL_HEIGHT) for wall in walls(world)]
         boxes += [(furniture(item), item.top) for item in world.furniture]
         for box, top in boxes:
-            shape = engine.createCollisionShape(
-                engine.GEOM_BOX,
-                halfExtents=(box.half_length, box.half_width, HEIGHT / 2.0),
-                physicsClientId=self._client,
-            )
+            extents = box.half_length, box.half_width, HEIGHT / 2.0
+            shape = self._shape(engine.GEOM_BOX, halfExtents=extents)
             shapes.append((shape, box.x, box.y, box.yaw, True))
             tops.append(top)
         self._solid = [solid for *_, solid in shapes]
@@ -89,22 +89,23 @@ class EngineClearance:
         self._scene = self._scenery(shapes) if shapes else None
         self._bodies = []
         for number, outline in parts:
-            shape, margin = self._shape(outline)
+            shape, margin = self._outline(outline)
             meets = [top >= outline.underside for top in tops]
             self._bodies.append(_Body(number, self._body(shape), outline.swing, margin, meets))
 
     def _round(self, radius: float, x: float = 0.0, y: float = 0.0) -> int:
         # Not a cylinder: how deep one is inside a long wall the engine sometimes cannot tell.
-        shape: int = engine.createCollisionShape(
+        return self._shape(
             engine.GEOM_CAPSULE,
             radius=radius,
             height=HEIGHT,
             collisionFramePosition=(x, y, 0.0),
-            physicsClientId=self._client,
         )
-        return shape
 
-    def _shape(self, outline: Outline) -> tuple[int, float]:
+    def _shape(self, kind: int, **arguments: Any) -> int:
+        return SHARED.shape(self._client, (kind, *arguments.items()))
+
+    def _outline(self, outline: Outline) -> tuple[int, float]:
         """Return the shape of an outline, and by how much the engine takes it for larger, m."""
         first, *others = outline.discs
         if not others:
@@ -113,25 +114,22 @@ class EngineClearance:
             dx, dy = others[0][0] - first[0], others[0][1] - first[1]
             # A capsule is built along z; lying at half height it is as far as from above.
             lying = engine.getQuaternionFromEuler((0.0, math.pi / 2.0, math.atan2(dy, dx)))
-            shape = engine.createCollisionShape(
+            shape = self._shape(
                 engine.GEOM_CAPSULE,
                 radius=first[2],
                 height=math.hypot(dx, dy),
                 collisionFramePosition=(first[0] + dx / 2.0, first[1] + dy / 2.0, 0.0),
                 collisionFrameOrientation=lying,
-                physicsClientId=self._client,
             )
             return shape, 0.0
-        corners = [
+        corners = tuple(
             (x, y, z) for x, y in outline.polygon.tolist() for z in (-HEIGHT / 2.0, HEIGHT / 2.0)
-        ]
-        prism = engine.createCollisionShape(
-            engine.GEOM_MESH, vertices=corners, physicsClientId=self._client
         )
-        return prism, MARGIN
+        return self._shape(engine.GEOM_MESH, vertices=corners), MARGIN
 
     def _body(self, shape: int) -> int:
         body: int = engine.createMultiBody(0.0, shape, physicsClientId=self._client)
+        self._made.append(body)
         return body
 
     def _scenery(self, shapes: list[tuple[int, float, float, float, bool]]) -> int:
@@ -152,6 +150,7 @@ class EngineClearance:
             linkJointAxis=[(0.0, 0.0, 1.0)] * count,
             physicsClientId=self._client,
         )
+        self._made.append(body)
         return body
 
     def __call__(self, time: float, *poses: tuple[float, float, float]) -> tuple[float, bool]:
@@ -212,21 +211,5 @@ class EngineClearance:
         return min(marked, solid) + body.margin, solid + body.margin
 
     def close(self) -> None:
-        """Free the world. May be called twice."""
-        if self._client < 0:
-            return
-        engine.resetSimulation(physicsClientId=self._client)
-        if len(_idle) < KEPT:
-            _idle.append(self._client)
-        else:
-            disconnect(self._client)
-        self._client = -1
-
-
-def _empty_client() -> int:
-    """Return an empty engine world: one that was given back, or a new one."""
-    while _idle:
-        client = _idle.pop()
-        if engine.isConnected(client):
-            return client
-    return connect()
+        """Take its bodies away. May be called twice."""
+        self._free()

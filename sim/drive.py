@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .errors import InputError
-from .parameters import Range, require_effect, require_ranges
+from .parameters import Range, require_choices, require_effect, require_ranges
 from .wheels import limited
 
 DRIVES = ("slip", "wheels")
@@ -47,9 +47,11 @@ class DriveParameters:
     gain_forward, gain_sideways : float
         Tyre force per slip speed along and across the base, N s/m. Slip only.
     gain_yaw : float
-        Torque per slip of the turning rate, N m s/rad. Slip only.
+        Torque per slip of the turning rate, N m s/rad. Slip only. Defaults are lowered to what
+        the physics step carries (`slip_gains`), a gain of one's own above that is refused.
     max_force, max_torque : float
         Limits of the motors along the base (N) and about it (N m); the latter for slip only.
+        Across the base the ground holds whatever comes.
     max_speed, max_rate : float
         Limits of the command, m/s and rad/s.
     max_acceleration, max_rate_change : float
@@ -87,8 +89,7 @@ class DriveParameters:
     friction: float = 0.9
 
     def __post_init__(self) -> None:
-        if self.kind not in DRIVES:
-            raise InputError(f"kind = {self.kind!r}: must be one of {', '.join(DRIVES)}")
+        require_choices(self, {"kind": DRIVES})
         require_ranges(self, RANGES)
         require_effect(self, ONLY)
 
@@ -152,6 +153,45 @@ class Command:
         self._under_way = deque(under_way)
 
 
+def slip_gains(
+    parameters: DriveParameters, mass: float, inertia: float, step: float
+) -> tuple[float, float, float]:
+    """Return the gains forward, sideways (N s/m) and in yaw (N m s/rad) of a base.
+
+    One may take away at most half of the slip within a physics step, so that slow physics stays
+    stable. Defaults are lowered to that.
+
+    Parameters
+    ----------
+    parameters : DriveParameters
+    mass, inertia : float
+        Of the base, kg and kg m^2.
+    step : float
+        Physics step in s.
+
+    Raises
+    ------
+    InputError
+        If a gain that is not the default is above that.
+    """
+    gains, usual = [], DriveParameters()
+    for name, moved in (
+        ("gain_forward", mass),
+        ("gain_sideways", mass),
+        ("gain_yaw", inertia),
+    ):
+        gain, most = getattr(parameters, name), 0.5 * moved / step
+        if gain > most and gain != getattr(usual, name):
+            unit, what = RANGES[name][2], "kg m^2" if name == "gain_yaw" else "kg"
+            raise InputError(
+                f"drive.{name} = {gain:g} {unit}: a base of {moved:.3g} {what} and a physics step "
+                f"of {1e3 * step:.2g} ms carry at most {most:.4g}; lower it or raise rates.physics"
+            )
+        gains.append(min(gain, most))
+    forward, sideways, yaw = gains
+    return forward, sideways, yaw
+
+
 class SlipDrive:
     """Force of the ground on the base: F = k (v_cmd - v), linear in the slip.
 
@@ -162,18 +202,21 @@ class SlipDrive:
     ----------
     parameters : DriveParameters
     mass, inertia : float
-        Of the base, kg and kg m^2. A gain is capped at half of what would take the whole slip
-        away within one physics step, so that slow physics stays stable.
+        Of the base, kg and kg m^2.
     step : float
         Physics step in s.
+
+    Raises
+    ------
+    InputError
+        See `slip_gains`.
     """
 
     def __init__(
         self, parameters: DriveParameters, mass: float, inertia: float, step: float
     ) -> None:
-        self._gain_forward = min(parameters.gain_forward, 0.5 * mass / step)
-        self._gain_sideways = min(parameters.gain_sideways, 0.5 * mass / step)
-        self._gain_yaw = min(parameters.gain_yaw, 0.5 * inertia / step)
+        gains = slip_gains(parameters, mass, inertia, step)
+        self._gain_forward, self._gain_sideways, self._gain_yaw = gains
         self._max_force = parameters.max_force
         self._max_torque = parameters.max_torque
         self.command = Command(parameters, step)

@@ -10,6 +10,7 @@ from gymnasium.spaces import Box, Dict
 from pettingzoo import ParallelEnv
 
 from .actions import Actions
+from .arguments import Arguments
 from .contact import blocked_start
 from .errors import InputError, SimulationError
 from .motion import Array, TwistBounds
@@ -76,7 +77,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
     Raises
     ------
     InputError
-        If the plant, one of its parameters or the sensor is unknown.
+        If the plant, one of its parameters or the sensor is unknown, or a value makes no sense.
     """
 
     metadata: ClassVar[dict[str, Any]] = {
@@ -101,21 +102,17 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         render_mode: str | None = None,
     ) -> None:
         sensor = sensor_preset(sensor) if isinstance(sensor, str) else sensor
+        own = {} if plant_parameters is None else plant_parameters
+        self._arguments = given = Arguments(
+            world, plant, own, rates, sensor, bounds, pace, duration, force_limit
+        )
         self.world, self.rates, self.bounds, self.pace = world, rates, bounds, pace
-        self.steps_per_episode = max(1, round(duration * rates.control))
+        self.steps_per_episode = given.steps
         if render_mode not in (None, *self.metadata["render_modes"]):
             raise InputError(f"render_mode = {render_mode!r}; known: None, human, rgb_array")
         self.render_mode = render_mode
-        self._arguments = {
-            "world": world,
-            "plant": plant,
-            "plant_parameters": dict(plant_parameters or {}),
-            "rates": rates,
-            "sensor": sensor,
-            "duration": duration,
-        }
         watched = render_mode == "human"
-        self._plant, shown = build_plant(plant, rates, plant_parameters or {}, watched)
+        self._plant, shown = build_plant(plant, rates, own, watched)
         self._window_needed = watched and not shown
         self.possible_agents = list(SEATS)
         self.agents: list[str] = []
@@ -256,8 +253,8 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
     def restore(self, saved: Saved) -> dict[str, Observation]:
         """Go on from a saved state, bit for bit; return what is seen there.
 
-        It may come from another environment that was made with the same arguments, except with
-        the drive "wheels", where the engine keeps it.
+        It may come from another environment that was made with the same arguments, ``render_mode``
+        aside; not with the drive "wheels", where the engine keeps it.
 
         Raises
         ------

@@ -79,7 +79,8 @@ def refuse_unstable(bodies: Masses, gains: Gains, step: float, held: int) -> Non
     Raises
     ------
     InputError
-        With the parameter, and the largest or smallest value that works with the rest as it is.
+        With the parameter, and the largest or smallest value that works with the rest as it is;
+        for the drive's gains too.
     """
     linear = Linear(bodies, step)
     if _stable(linear, gains, held):

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .errors import InputError
+from .parameters import Range, require_flag, require_ranges
 
 PERCENTILES = (5.0, 50.0, 95.0)
 FORE_AFT, LATERAL = (0.036, 0.066, 0.159), (0.027, 0.060, 0.115)
@@ -35,6 +35,13 @@ FULL_SPEED = 0.3
 """Speed below which the sway shrinks in proportion, m/s (inferred): standing still is still."""
 PACE_LAG = 0.5
 """Time constant with which the cadence follows the speed, s (inferred)."""
+RANGES: dict[str, Range] = {
+    "percentile": (PERCENTILES[0], PERCENTILES[-1], ""),
+    "step_frequency": (0.5, 4.0, "Hz"),
+    "fore_aft": (0.0, 0.3, "m"),
+    "lateral": (0.0, 0.3, "m"),
+}
+"""What was measured, and beyond it what walking people can do (inferred)."""
 
 
 @dataclass(frozen=True)
@@ -65,14 +72,8 @@ class GaitParameters:
     step_frequency: float = STEP_FREQUENCY[1]
 
     def __post_init__(self) -> None:
-        if not PERCENTILES[0] <= self.percentile <= PERCENTILES[-1]:
-            raise InputError(f"percentile = {self.percentile}: must lie between 5 and 95")
-        if not 0.5 <= self.step_frequency <= 4.0:
-            raise InputError(f"step_frequency = {self.step_frequency} Hz: must be 0.5 to 4 Hz")
-        for name in ("fore_aft", "lateral"):
-            size = getattr(self, name)
-            if size is not None and not 0.0 <= size <= 0.3:
-                raise InputError(f"{name} = {size} m: must lie between 0 and 0.3 m")
+        require_flag("enabled", self.enabled)
+        require_ranges(self, RANGES)
 
     @property
     def sway(self) -> tuple[float, float]:

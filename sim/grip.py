@@ -6,10 +6,16 @@ import math
 from dataclasses import dataclass
 
 from .errors import InputError
-from .parameters import require_effect
+from .parameters import Range, require_choices, require_effect, require_entries, require_ranges
 
 GRIPS = ("rigid", "compliant")
 ON_LOSS = ("end", "stop")
+RANGES: dict[str, Range] = {
+    "slip_force": (0.1, 1e4, "N"),
+    "slip_length": (1e-4, 100.0, "m"),
+    "release_force": (0.1, 1e4, "N"),
+}
+"""What a hand can do, with room to spare (inferred)."""
 Triple = tuple[float, float, float]
 
 
@@ -34,15 +40,16 @@ class GripParameters:
     slip_length : float
         How far it can slide before it is lost, m.
     release_force : float, optional
-        Force beyond which the hand lets go, N; None never does.
+        Force beyond which the hand lets go, N, judged in every physics step; that of both hands
+        together where both hold. None never does.
     on_loss : {"end", "stop"}
         What a lost grip does: end the episode, or let the base come to a stop.
 
     Raises
     ------
     InputError
-        If a kind is unknown, a number has the wrong sign, or one is given that has no effect
-        with the kind.
+        If a kind is unknown, a number is negative or outside of `RANGES`, or one is given that
+        has no effect with the kind.
     """
 
     kind: str = "rigid"
@@ -56,20 +63,12 @@ class GripParameters:
     on_loss: str = "end"
 
     def __post_init__(self) -> None:
-        if self.kind not in GRIPS:
-            raise InputError(f"kind = {self.kind!r}: must be one of {', '.join(GRIPS)}")
-        if self.on_loss not in ON_LOSS:
-            raise InputError(f"on_loss = {self.on_loss!r}: must be one of {', '.join(ON_LOSS)}")
-        for name in ("stiffness", "damping", "turn_stiffness", "turn_damping"):
-            value = getattr(self, name)
-            if len(value) != 3 or not (min(value) >= 0.0 and max(value) < math.inf):
-                raise InputError(f"{name} = {value}: must be 3 finite numbers of at least 0")
+        require_choices(self, {"kind": GRIPS, "on_loss": ON_LOSS})
+        springs = ("stiffness", "damping", "turn_stiffness", "turn_damping")
+        require_entries(self, springs, 3, least=0.0)
         if self.kind == "compliant" and not min(self.stiffness[:2]) > 0.0:
             raise InputError(f"stiffness = {self.stiffness}: must be above 0 along x and y")
-        for name in ("slip_force", "slip_length", "release_force"):
-            value = getattr(self, name)
-            if value is not None and not value > 0.0:
-                raise InputError(f"{name} = {value}: must be above 0")
+        require_ranges(self, RANGES)
         if self.slip_force is not None and self.kind == "rigid":
             raise InputError(f"slip_force = {self.slip_force}: only a compliant grip can slip")
         require_effect(self, {"compliant": ("stiffness", "damping", "slip_length")})

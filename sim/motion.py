@@ -11,6 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .errors import InputError
+from .parameters import require_entries
+
 Array = NDArray[np.float64]
 
 
@@ -139,17 +142,19 @@ class TwistBounds:
 
     Raises
     ------
-    ValueError
-        If a lower bound is not below its upper bound, or an upper bound is not positive.
+    InputError
+        If they are not two finite numbers each, a lower bound is not below its upper bound, or an
+        upper bound is not positive.
     """
 
     lower: tuple[float, float] = (0.0, -0.5)
     upper: tuple[float, float] = (1.2, 0.5)
 
     def __post_init__(self) -> None:
+        require_entries(self, ("lower", "upper"), 2)
         for name, low, high in zip(("v", "omega"), self.lower, self.upper, strict=True):
             if not low < high or not high > 0.0:
-                raise ValueError(
+                raise InputError(
                     f"twist bounds of {name} are [{low}, {high}]; "
                     "the lower must lie below the upper, and the upper above 0"
                 )

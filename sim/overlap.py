@@ -6,6 +6,7 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
 from .anthropometry import ANKLE_HEIGHT, HALF_HIPS, TRUNK_DEPTH, BodyParameters
@@ -160,7 +161,7 @@ def _block(solid: Solid, part: Slice) -> Block | None:
     return Block(solid, part, ConvexHull(apart).equations, cut, section)
 
 
-def _rim(points: Array) -> Array:
+def _rim(points: Array) -> NDArray[np.intp]:
     """Return the numbers of the points on the hull; of all that lie on a line."""
     try:
         return np.asarray(ConvexHull(points).vertices)
@@ -202,7 +203,7 @@ def _cut(solid: Solid, part: Slice) -> Array | None:
     points, faces = solid.points, solid.faces
     for up, level in ((1.0, part.low), (-1.0, part.high)):
         plane = np.array([0.0, 0.0, up]), np.array([0.0, 0.0, level])
-        points, faces = slice_faces_plane(points, faces, *plane)[:2]
+        points, faces = slice_faces_plane(points, faces, *plane)[:2]  # type: ignore[no-untyped-call]
     return np.asarray(points[faces][..., :2])
 
 

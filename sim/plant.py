@@ -7,6 +7,7 @@ Two plants ship, `cowalk.sim.unicycle` (kinematic, the paper's) and `cowalk.sim.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from numbers import Integral
 from typing import Any, Protocol
 
 import numpy as np
@@ -16,6 +17,7 @@ from .clearance import Distances
 from .errors import InputError
 from .motion import Array
 from .outline import Bodies, disc
+from .parameters import shown
 from .world import World
 from .wrench import AT_HANDLE, SensorMount, in_sensor_frame
 
@@ -35,6 +37,9 @@ HUMAN_PLACE = (-0.10, -0.65, 0.0)
 
 
 def _ratio(fast_name: str, fast: int, slow_name: str, slow: int) -> int:
+    for name, rate in ((fast_name, fast), (slow_name, slow)):
+        if not isinstance(rate, Integral) or isinstance(rate, bool):
+            raise InputError(f"rates.{name} = {shown(rate)}: a whole number is expected, in Hz")
     if slow <= 0:
         raise InputError(f"rates.{slow_name} = {slow} Hz: it must be above 0")
     if fast < slow or fast % slow:
@@ -52,7 +57,8 @@ class Rates:
     Raises
     ------
     InputError
-        If physics is no multiple of control or of the sensor, or the sensor of control.
+        If one is no whole number above 0, physics no multiple of control or of the sensor, or the
+        sensor none of control.
     """
 
     control: int = 20

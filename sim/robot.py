@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
@@ -10,6 +11,7 @@ from xml.etree import ElementTree
 from .errors import InputError
 from .frames import Vector
 from .outline import Outline, disc
+from .parameters import shown
 from .plant import BASE_RADIUS, CAMERA
 from .registry import did_you_mean
 from .urdf import Rigid, lump, mirrored, read_robot
@@ -35,11 +37,23 @@ class RobotParameters:
     camera : str
         Name of the link at whose origin it sees. A robot without a link "camera" sees from the
         front of its outline, as high up as its shapes reach.
+
+    Raises
+    ------
+    InputError
+        If one is no text. What is not in the file is refused by `robot_of`.
     """
 
     urdf: str | None = None
     handle: str = "handle"
     camera: str = "camera"
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.urdf, str | os.PathLike | None):
+            raise InputError(f"urdf = {shown(self.urdf)}: the path of a URDF file is expected")
+        for name in ("handle", "camera"):
+            if not isinstance(value := getattr(self, name), str):
+                raise InputError(f"{name} = {shown(value)}: the name of a link is expected")
 
 
 @dataclass(frozen=True)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
+from .arguments import Arguments
 from .errors import InputError
 
 CURE = "restore it into the environment that saved it, or one made with the same arguments"
@@ -17,7 +18,7 @@ class Saved:
 
     Attributes
     ----------
-    arguments : mapping
+    arguments : Arguments
         With which the environment was made.
     plant : object
         What the plant saved.
@@ -25,25 +26,25 @@ class Saved:
         What of the environment itself changes within an episode.
     """
 
-    arguments: Mapping[str, Any]
+    arguments: Arguments
     plant: Any
     own: Mapping[str, Any]
 
 
-def checked(saved: Any, arguments: Mapping[str, Any]) -> Saved:
+def checked(saved: Any, arguments: Arguments) -> Saved:
     """Return a saved state that an environment made with some arguments can go on from.
 
     Raises
     ------
     InputError
-        If it is none, or one of another world, plant or whatever else would not fit.
+        If it is none, or that of an environment made with another argument, which is named.
     """
     if not isinstance(saved, Saved):
         kind = type(saved).__name__
         raise InputError(f"restore takes what save of an environment gave, not a {kind}")
-    for name, value in arguments.items():
-        if not _same(saved.arguments[name], value):
-            raise InputError(f"restore: this state was saved with another {name}; {CURE}")
+    for item in fields(Arguments):
+        if not _same(getattr(saved.arguments, item.name), getattr(arguments, item.name)):
+            raise InputError(f"restore: this state was saved with another {item.name}; {CURE}")
     return saved
 
 

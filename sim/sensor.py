@@ -51,11 +51,6 @@ class ForceSensor:
     parameters : SensorParameters
     sample_rate : int
         Rate of the samples that come in and go out, Hz.
-
-    Raises
-    ------
-    InputError
-        If a list or a matrix is not made for six channels.
     """
 
     def __init__(self, parameters: SensorParameters, sample_rate: int = 240) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from .errors import InputError
 from .motion import Array
 from .sensor_parameters import SensorParameters
 
@@ -21,19 +20,14 @@ def channels(parameters: SensorParameters, name: str) -> Array:
     name : str
         Of the field for forces; that for torques is called ``torque_`` and the same.
 
-    Raises
-    ------
-    InputError
-        If a list has neither 3 entries (x, y, z) nor 2 (x, y; then 0 about or along z).
+    Returns
+    -------
+    ndarray, shape (6,)
+        A list of 2 is for x and y, and 0 about or along z.
     """
     six = np.zeros(CHANNELS)
     for field, part in ((name, FORCES), (f"torque_{name}", TORQUES)):
         given = np.asarray(getattr(parameters, field), dtype=float)
-        if given.ndim and given.shape not in ((2,), (3,)):
-            raise InputError(
-                f"sensor.{field} has {given.size} entries; give one number, or 3 for x, y and z, "
-                "or 2 for x and y"
-            )
         six[part][: given.size if given.ndim else None] = given
     return six
 
@@ -48,11 +42,6 @@ def coupling(parameters: SensorParameters) -> Array | None:
     Parameters
     ----------
     parameters : SensorParameters
-
-    Raises
-    ------
-    InputError
-        If a matrix is not square, of 2 (forces along x and y), 3 (forces) or 6 rows.
     """
     shares = np.asarray(parameters.cross_talk, dtype=float)
     whole = np.zeros((CHANNELS, CHANNELS))
@@ -64,11 +53,6 @@ def coupling(parameters: SensorParameters) -> Array | None:
             whole[FORCES, FORCES] = whole[TORQUES, TORQUES] = 1.0
         np.fill_diagonal(whole, 0.0)
         whole *= shares
-    elif shares.shape in ((2, 2), (3, 3), (6, 6)):
-        whole[: len(shares), : len(shares)] = shares
     else:
-        raise InputError(
-            f"sensor.cross_talk has shape {shares.shape}; give one number, or 6 rows of 6, or 3 of "
-            "3 for forces, or 2 of 2 for those along x and y"
-        )
+        whole[: len(shares), : len(shares)] = shares
     return np.eye(CHANNELS) + whole.T if whole.any() else None

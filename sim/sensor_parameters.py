@@ -3,16 +3,41 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from .errors import InputError
+from .parameters import Range, parameters, require_flag, require_range, require_ranges, shown
 from .registry import did_you_mean
 
 LONGEST_LATENCY = 1.0
-"""s; nobody walks by forces that are older."""
+"""s; nobody walks by forces that are older, or are converted more seldom."""
+RANGES: dict[str, Range] = {
+    "rate": (1.0 / LONGEST_LATENCY, 1e6, "Hz"),
+    "latency": (0.0, LONGEST_LATENCY, "s"),
+    "low_pass": (0.1, 1e6, "Hz"),
+    "range": (1e-3, 1e5, "N"),
+    "resolution": (0.0, 1e4, "N"),
+    "torque_range": (1e-3, 1e5, "N m"),
+    "torque_resolution": (0.0, 1e4, "N m"),
+    "drop_rate": (0.0, 0.99, ""),
+}
+RANGES_OF_AXES: dict[str, Range] = {
+    "bias": (-1e4, 1e4, "N"),
+    "drift": (-1e5, 1e5, "N/h"),
+    "noise_density": (0.0, 100.0, "N/sqrt(Hz)"),
+    "torque_bias": (-1e4, 1e4, "N m"),
+    "torque_drift": (-1e5, 1e5, "N m/h"),
+    "torque_noise_density": (0.0, 100.0, "N m/sqrt(Hz)"),
+}
+CROSS_TALK: Range = (0.0, 0.5, "")
+"""Of the one share: at 1, all channels read the same."""
+CROSS_TALK_ENTRY: Range = (-100.0, 100.0, "")
+"""Of a matrix: in newtons a newton metre it may be well above 1.
+
+All of these ranges are inferred, and generous: thousands of times what sensors on a handle do."""
 
 
 @dataclass(frozen=True)
@@ -27,8 +52,8 @@ class SensorParameters:
     Parameters
     ----------
     rate : float
-        Conversions a second, Hz; between them the last one is read again. 0 converts at every
-        sample of `cowalk.sim.plant.Rates.sensor`, as does any rate above that.
+        Conversions a second, Hz, to 1 mHz; between them the last one is read again. 0 converts at
+        every sample of `cowalk.sim.plant.Rates.sensor`, as does any rate above that.
     latency : float
         Delay from conversion to reading, s, rounded to whole samples.
     bias, torque_bias : float or list
@@ -57,7 +82,8 @@ class SensorParameters:
     Raises
     ------
     InputError
-        If a number is negative or not finite where that has no meaning.
+        If a value is outside of `RANGES`, `RANGES_OF_AXES`, `CROSS_TALK` or `CROSS_TALK_ENTRY`,
+        a list or a matrix not made for six channels, or a resolution above its range.
     """
 
     rate: float = 0.0
@@ -78,32 +104,51 @@ class SensorParameters:
     tare: bool = False
 
     def __post_init__(self) -> None:
-        for name, unit in (
-            ("rate", "Hz"),
-            ("latency", "s"),
-            ("noise_density", "N/sqrt(Hz)"),
-            ("torque_noise_density", "N m/sqrt(Hz)"),
-            ("low_pass", "Hz"),
-            ("resolution", "N"),
-            ("torque_resolution", "N m"),
+        require_flag("tare", self.tare)
+        require_ranges(self, RANGES)
+        for name, within in RANGES_OF_AXES.items():
+            axes = _tuples(getattr(self, name))
+            object.__setattr__(self, name, axes)
+            if isinstance(axes, tuple) and len(axes) not in (2, 3):
+                raise InputError(
+                    f"{name} has {len(axes)} entries; give one number, or 3 for x, y and z, "
+                    "or 2 for x and y"
+                )
+            for value in axes if isinstance(axes, tuple) else (axes,):
+                require_range(name, value, within)
+        self._require_cross_talk()
+        for step, limit, unit in (
+            ("resolution", "range", "N"),
+            ("torque_resolution", "torque_range", "N m"),
         ):
-            value = getattr(self, name)
-            if not (np.all(np.isfinite(value)) and np.min(value, initial=0.0) >= 0.0):
-                raise InputError(f"{name} = {value} {unit}: it must be finite and at least 0")
-        if self.latency > LONGEST_LATENCY:
+            if getattr(self, step) > getattr(self, limit):
+                raise InputError(
+                    f"{step} = {getattr(self, step)} {unit}: must not be above "
+                    f"{limit} = {getattr(self, limit)} {unit}, else nothing but 0 is read"
+                )
+
+    def _require_cross_talk(self) -> None:
+        given = _tuples(self.cross_talk)
+        object.__setattr__(self, "cross_talk", given)
+        if not isinstance(given, tuple):
+            require_range("cross_talk", given, CROSS_TALK)
+            return
+        rows = [isinstance(row, tuple) and len(row) for row in given]
+        if rows not in ([2] * 2, [3] * 3, [6] * 6):
             raise InputError(
-                f"latency = {self.latency} s: it must lie between 0 and {LONGEST_LATENCY:g} s"
+                f"cross_talk = {shown(given)}: give one number, or 6 rows of 6, or 3 of 3 for "
+                "forces, or 2 of 2 for those along x and y"
             )
-        for name, unit in (("range", "N"), ("torque_range", "N m")):
-            if not getattr(self, name) > 0.0:
-                raise InputError(f"{name} = {getattr(self, name)} {unit}: it must be above 0")
-        if not 0.0 <= self.drop_rate < 1.0:
-            raise InputError(f"drop_rate = {self.drop_rate}: it must be at least 0 and below 1")
-        for kind in ("bias", "drift", "noise_density"):
-            for name in (kind, f"torque_{kind}"):
-                value = getattr(self, name)
-                if np.size(value) == 0 or not np.all(np.isfinite(value)):
-                    raise InputError(f"{name} = {value}: give one number, or one an axis")
+        for row in given:
+            for value in row:
+                require_range("cross_talk", value, CROSS_TALK_ENTRY)
+
+
+def _tuples(value: Any) -> Any:
+    """Return lists and arrays as tuples, which can be compared and stay as they are."""
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    return tuple(map(_tuples, value)) if isinstance(value, list | tuple) else value
 
 
 PRESETS: dict[str, tuple[str, SensorParameters]] = {
@@ -203,8 +248,8 @@ def sensor_preset(name: str, **changes: Any) -> SensorParameters:
     Raises
     ------
     InputError
-        If there is no such preset.
+        If there is no such preset, or a change is refused.
     """
     if name not in PRESETS:
         raise InputError(f"unknown sensor preset {name!r}; {did_you_mean(name, list(PRESETS))}")
-    return replace(PRESETS[name][1], **changes)
+    return parameters("sensor", SensorParameters, vars(PRESETS[name][1]) | changes)

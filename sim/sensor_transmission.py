@@ -136,7 +136,7 @@ def _ages(rate: float, sample_rate: int) -> NDArray[np.int_]:
     """Return how many samples ago the last conversion was, over one period of the pattern."""
     if not 0.0 < rate < sample_rate:
         return np.zeros(1, dtype=int)
-    conversions = max(1, round(rate * 1000))  # a period of whole samples, to 1 mHz
+    conversions = round(rate * 1000)  # a period of whole samples, to 1 mHz
     period = sample_rate * 1000 // math.gcd(conversions, sample_rate * 1000)
     sample = np.arange(period)
     latest = sample * conversions // (sample_rate * 1000)

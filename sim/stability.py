@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from .anthropometry import yaw_inertia
-from .drive import DriveParameters
+from .drive import DriveParameters, slip_gains
 from .grip import GripParameters
 from .human_body import HumanBody
 from .motion import Array
@@ -57,6 +57,11 @@ class Linear:
     bodies : Masses
     step : float
         Physics step, s.
+
+    Raises
+    ------
+    InputError
+        If it does not carry the drive's gains.
     """
 
     def __init__(self, bodies: Masses, step: float) -> None:
@@ -105,10 +110,11 @@ class Linear:
         # Wheels hold the base by friction and motors, in the same solver as the grip.
         slip = bodies.drive.kind == "slip"
         self._still = np.zeros((0, n)) if slip else np.eye(3, n)
-        drive = [bodies.drive.gain_forward, bodies.drive.gain_sideways, bodies.drive.gain_yaw]
-        most = 0.5 / step * np.array([bodies.base.mass] * 2 + [bodies.base.yaw_inertia])
         self._drive = np.zeros((n, n))
-        self._drive[:3, :3] = np.diag(np.minimum(drive, most) if slip else np.zeros(3))
+        if slip:
+            base = bodies.base
+            gains = slip_gains(bodies.drive, base.mass, base.yaw_inertia, step)
+            self._drive[:3, :3] = np.diag(gains)
 
     def _carried(self, first: int, point: tuple[float, ...]) -> Array:
         """Return d(point)/d(coordinates), shape (2, n), of a point fixed to base or trunk."""

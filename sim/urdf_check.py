@@ -18,7 +18,7 @@ Element = ElementTree.Element
 class Numbers(NamedTuple):
     """What an attribute must hold."""
 
-    count: int
+    needed: int
     meaning: str
     default: str | None = None
     """What it is where it is left out; None if it must not be."""
@@ -60,22 +60,22 @@ def numbers(element: Element, attribute: str) -> Array:
     InputError
         If they are not as many as needed, not finite, or less than they may be.
     """
-    needed = NUMBERS[element.tag][attribute]
-    text = element.get(attribute, needed.default)
+    rule = NUMBERS[element.tag][attribute]
+    text = element.get(attribute, rule.default)
     parts = (text or "").split()
     try:
         values = np.array([float(part) for part in parts])
     except ValueError:
         values = np.array([np.nan])
-    right = len(values) == needed.count and np.isfinite(values).all()
-    if right and (values >= needed.least).all():
+    right = len(values) == rule.needed and np.isfinite(values).all()
+    if right and (values >= rule.least).all():
         return values
-    some = "a finite number" if needed.count == 1 else f"{needed.count} finite numbers"
-    least = f" of at least {needed.least:g}" if np.isfinite(needed.least) else ""
+    some = "a finite number" if rule.needed == 1 else f"{rule.needed} finite numbers"
+    least = f" of at least {rule.least:g}" if np.isfinite(rule.least) else ""
     given = f'<{element.tag}> without "{attribute}"'
     if text is not None:
         given = f'<{element.tag} {attribute}="{" ".join(parts)}">'
-    raise InputError(f"{given}: must be {some}{least}, {needed.meaning}")
+    raise InputError(f"{given}: must be {some}{least}, {rule.meaning}")
 
 
 def number(element: Element, attribute: str) -> float:

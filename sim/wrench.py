@@ -11,6 +11,7 @@ import numpy as np
 from .errors import InputError
 from .frames import rotation
 from .motion import Array
+from .parameters import require_entries
 
 FARTHEST = 2.0
 """Of a sensor from the handle, m: beyond the size of what two people walk with (inferred)."""
@@ -37,10 +38,7 @@ class SensorMount:
     rpy: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     def __post_init__(self) -> None:
-        for name in ("position", "rpy"):
-            value = getattr(self, name)
-            if len(value) != 3 or not all(math.isfinite(item) for item in value):
-                raise InputError(f"{name} = {value}: must be three finite numbers")
+        require_entries(self, ("position", "rpy"), 3)
         if math.hypot(*self.position) > FARTHEST:
             raise InputError(
                 f"position = {self.position} m: must lie within {FARTHEST:g} m of the handle"

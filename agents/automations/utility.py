@@ -21,29 +21,13 @@ _BRACKET, _BRACKET_LEAST = np.array([-1, 0]), np.array([0, 1])
 _AGREED = 1e-12
 
 
-def utility(cost: Array, human_cost: Array, own_cost: Array) -> Array:
-    """Return U: 1 at the automation's wish, 0 at the human's.
-
-    Parameters
-    ----------
-    cost, human_cost, own_cost : ndarray, shape (...)
-        J of the primitive, of the human's wish and of the automation's own.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        1 where both wishes cost the same: they agree.
-    """
-    gap = human_cost - own_cost
-    agreed = gap <= _AGREED
-    return np.where(agreed, 1.0, (human_cost - cost) / np.where(agreed, 1.0, gap))
-
-
 def negotiated(problem: Problem, own: Array, human: Array, target: Array) -> Array:
-    """Return the primitive on the Pareto front whose utility is the target.
+    """Return the primitive whose utility is the target: on the Pareto front, or closing a gap.
 
     J is continuous, so the target is met on the straight line between the two neighbours on the
-    front that enclose it, even where weights find no point between them.
+    front that enclose it. Where the front has a gap (its costs do not bend outwards there, as on
+    sharply bent paths), that line leads past it, and the point may cost the human more than
+    the best of that utility would.
 
     Parameters
     ----------
@@ -81,7 +65,7 @@ def negotiated(problem: Problem, own: Array, human: Array, target: Array) -> Arr
 
 
 def _enclosing(cost: Array, level: Array) -> NDArray[np.int_]:
-    """Return the numbers of the first point that costs no more than a level, and of that before.
+    """Return the numbers of the two points around a level of cost: before, and at or below it.
 
     Parameters
     ----------
@@ -92,7 +76,7 @@ def _enclosing(cost: Array, level: Array) -> NDArray[np.int_]:
     Returns
     -------
     ndarray of int, shape (..., 2)
-        The last two, if none costs so little.
+        The second is the first that costs so little; the last two, if none does.
     """
     reached = cost <= level
     first = np.where(reached.any(axis=-1), reached.argmax(axis=-1), cost.shape[-1] - 1)

@@ -15,6 +15,9 @@ from .elementwise import FLOATS, Elementwise, Value, components, elementwise
 from .minimum_jerk import Movement
 from .route import Route, Triple
 
+FASTEST = 5.0
+"""Pace that anybody may want beside a robot, m/s (inferred)."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class ChangeOfMind:
@@ -87,7 +90,7 @@ class IntentionSettings:
     Raises
     ------
     InputError
-        If a distance or the pace is negative, or the lookahead or the easing is 0.
+        If a distance is negative, the pace none to walk at, or the lookahead or the easing 0.
     """
 
     pace: float | None = None
@@ -100,10 +103,11 @@ class IntentionSettings:
     changes: tuple[ChangeOfMind, ...] = ()
 
     def __post_init__(self) -> None:
-        for name in ("pace", "margin", "anticipation"):
-            value = getattr(self, name)
-            if value is not None and not value >= 0.0:
-                raise InputError(f"{name} = {value}: must not be negative")
+        if self.pace is not None and not 0.0 <= self.pace <= FASTEST:
+            raise InputError(f"pace = {self.pace} m/s: must lie between 0 and {FASTEST:g} m/s")
+        for name in ("margin", "anticipation"):
+            if not getattr(self, name) >= 0.0:
+                raise InputError(f"{name} = {getattr(self, name)}: must not be negative")
         for name in ("lookahead", "easing"):
             if not getattr(self, name) > 0.0:
                 raise InputError(f"{name} = {getattr(self, name)} m: must be above 0")

@@ -11,7 +11,7 @@ from cowalk.agents.automations.constant import AlwaysYields, NeverYields
 from cowalk.agents.automations.planner import PROBLEMS, minimise
 from cowalk.agents.automations.settings import NegotiationSettings
 from cowalk.agents.automations.stubbornness import StubbornnessAutomation
-from cowalk.agents.automations.utility import negotiated, utility
+from cowalk.agents.automations.utility import negotiated
 from cowalk.agents.interfaces import Situation
 from cowalk.sim.errors import InputError
 from cowalk.sim.motion import TwistBounds, arc_displacement, compose
@@ -27,6 +27,11 @@ speeds, turns = st.floats(0.0, 1.2), st.floats(-0.5, 0.5)
 def problem_at(dimensions, offset, heading, **changes):
     chosen = NegotiationSettings(dimensions=dimensions, horizon=2.0, turn_weight=0.2, **changes)
     return PROBLEMS[dimensions](chosen, SITUATION, np.array([3.0, offset, heading]))
+
+
+def utility(cost, human_cost, own_cost):
+    """U: 1 at the automation's wish, 0 at the human's."""
+    return (human_cost - cost) / (human_cost - own_cost)
 
 
 def cost_of(problem, twist):
@@ -66,7 +71,7 @@ def test_the_negotiated_primitive_has_the_target_utility(o, h, v, w, target, dim
     ends = cost_of(problem, human), cost_of(problem, own)
     if ends[0] - ends[1] < 1e-3:
         return  # the two agree, and utility is not defined by more than rounding
-    reached = utility(np.array(cost_of(problem, agreed)), *map(np.array, ends))
+    reached = utility(cost_of(problem, agreed), *ends)
     assert reached == pytest.approx(target, abs=1e-3)
     if dimensions == "omega":
         low, high = sorted((own[1], human[1]))
@@ -87,9 +92,9 @@ def test_on_a_sharply_bent_path_it_has_the_target_utility_too():
     agreed = negotiated(problem, own, human, target)
     at_agreed, at_human, at_own = problem.cost(np.stack((agreed, human, own), axis=1)).T
     apart = at_human - at_own > 1e-3
-    reached = utility(at_agreed, at_human, at_own)
     assert apart.mean() > 0.95
-    np.testing.assert_allclose(reached[apart], target[apart], atol=5e-4)
+    reached = utility(at_agreed[apart], at_human[apart], at_own[apart])
+    np.testing.assert_allclose(reached, target[apart], atol=5e-4)
 
 
 def test_a_wish_at_the_end_of_the_range_is_that_end():

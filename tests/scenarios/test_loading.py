@@ -119,7 +119,7 @@ pace: 1
 @pytest.mark.parametrize(
     ("value", "words"),
     [
-        ("-1", "it must be above 0"),
+        ("-1", "must lie between 0.01 and 86400 s"),
         (".inf", "a finite number is expected"),
         (".nan", "a finite number is expected"),
         ("true", "a number is expected, not true or false"),
@@ -228,7 +228,7 @@ def test_what_only_the_plant_can_judge_is_found_at_its_line(scenario_file, plant
     ("old", "new", "words"),
     [
         ("name: walk", "name: a/b", "name = 'a/b': a run's folder is named so: it must not"),
-        ("duration: 3.0", "duration: 0", "duration = 0: it must be above 0"),
+        ("duration: 3.0", "duration: 0", "duration = 0.0 s: must lie between 0.01 and 86400 s"),
         ("name: steady", "name: steady\n  parameters: {level: 2}", "a list of 2 is expected"),
         ("[[0.0, 0.0], [30.0, 0.0]]", "[[0, 0], 3]", "points.1 = 3: a list of 2 is expected"),
         ("[[0.0, 0.0], [30.0, 0.0]]", "[[0, 0]]", "at least two points (x, y), not 1"),
@@ -265,6 +265,29 @@ def test_a_change_of_mind_that_never_comes_is_refused_at_its_line(scenario_file,
     key = change.partition(":")[0] if "1.4" not in change else "pace"
     assert (fault.line, fault.key) == (10, f"human.intention.changes.1.{key}")
     assert words in fault.message
+
+
+def test_a_sensor_that_converts_no_more_than_once_in_a_run_is_refused(scenario_file):
+    message = refusal(scenario_file(), "sensor.rate=2", "duration=0.5")
+    assert "sensor.rate = 2 Hz: must convert more than once in the run, duration = 0.5 s" in message
+    assert load(scenario_file(), ["sensor.rate=2", "duration=0.6"]).sensor.rate == 2.0
+
+
+@pytest.mark.parametrize(
+    ("pace", "words"),
+    [
+        ("50", "pace = 50.0 m/s: must lie between 0.01 and 5 m/s"),
+        ("0", "pace = 0.0 m/s: must lie between 0.01 and 5 m/s"),
+        ("1.3", "pace = 1.3 m/s: must not be above the upper bound of v, bounds.upper.0 = 1.2 m/s"),
+    ],
+)
+def test_a_pace_that_nobody_can_walk_at_is_refused_at_its_line(scenario_file, pace, words):
+    (fault,) = faults(scenario_file(more=f"pace: {pace}\n"))
+    assert (fault.line, fault.message) == (8, words)
+    assert refusal(scenario_file(), f"pace={pace}").startswith(f"--set pace={pace}: pace = ")
+    if pace == "50":
+        intended = refusal(scenario_file(), "human.intention.pace=50")
+        assert "human.intention.pace = 50.0 m/s: must lie between 0 and 5 m/s" in intended
 
 
 def test_overrides_replace_values_of_any_kind(scenario_file):

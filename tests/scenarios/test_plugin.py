@@ -38,7 +38,7 @@ def test_a_good_and_a_broken_scenario_side_by_side(scenarios):
     result.stdout.fnmatch_lines(
         [
             "*broken.scenario.yaml is broken, 2 faults:",
-            "*line 2: duration = -2.0: it must be above 0*",
+            "*line 2: duration = -2.0 s: must lie between*",
             "*line 5: human.name: unknown human 'stedy'; did you mean 'steady'?*",
         ]
     )

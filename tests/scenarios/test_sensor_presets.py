@@ -65,12 +65,20 @@ def test_what_is_written_out_loads_as_an_equal_sensor(with_sensor, folder):
         ("{preset: 3}", "unknown sensor preset '3'"),
         ("{preset: low-cost, rang: 3}", "sensor.rang: unknown key; did you mean 'range'?"),
         ("{noise: [0.1, 0.1]}", "sensor.noise: unknown key"),
-        ("{drop_rate: 2}", "drop_rate = 2.0: it must be at least 0 and below 1"),
+        ("{drop_rate: 2}", "sensor.drop_rate = 2.0: must lie between 0 and 0.99"),
         ("{bias: [1, a]}", "sensor.bias.1 = 'a': a number is expected, not text"),
         ("{tare: 1}", "sensor.tare = 1: true or false is expected"),
         ("{bias: [1, 2, 3, 4]}", "bias has 4 entries; give one number, or 3 for x, y and z"),
-        ("{torque_range: -1}", "torque_range = -1.0 N m: it must be above 0"),
-        ("{cross_talk: [[0, 1, 2]]}", "cross_talk has shape (1, 3); give one number, or 6 rows"),
+        ("{torque_range: -1}", "torque_range = -1.0 N m: must lie between 0.001 and 100000 N m"),
+        (
+            "{cross_talk: [[0, 1, 2]]}",
+            "cross_talk = ((0.0, 1.0, 2.0),): give one number, or 6 rows",
+        ),
+        ("{cross_talk: [[1, 2], [3]]}", "cross_talk = ((1.0, 2.0), (3.0,)): give one number, or 6"),
+        ("{torque_bias: []}", "sensor.torque_bias has 0 entries; give one number, or 3 for x, y"),
+        ("{bias: [0, 1e300]}", "sensor.bias = 1e+300 N: must lie between -10000 and 10000 N"),
+        ("{preset: industrial, range: 0.005}", "sensor.resolution = 0.01 N: must not be above"),
+        ("{rate: 0.0001}", "sensor.rate = 0.0001 Hz: must lie between 1 and 1e+06 Hz, or be 0"),
     ],
 )
 def test_faults_are_named(with_sensor, sensor, named):
@@ -104,6 +112,23 @@ def test_shares_of_lost_and_saturated_samples_are_told(with_sensor):
         == f"{100.0 * narrow['saturated']:.2g} % of samples at the end of a channel's range"
     )
     assert well is None
+
+
+@pytest.mark.parametrize(
+    ("share", "said"),
+    [
+        (1.0, "100 %"),
+        (0.9996, "over 99 %"),
+        (0.994, "99 %"),
+        (0.123, "12 %"),
+        (0.0996, "10 %"),
+        (0.0512, "5.1 %"),
+        (0.000814, "0.081 %"),
+    ],
+)
+def test_a_share_is_said_in_plain_digits(share, said):
+    summary = {"sensor": {"saturated": share, "lost": 0.0}}
+    assert sensor_faults(summary) == f"{said} of samples at the end of a channel's range"
 
 
 OPTIONS = list(itertools.product(PRESETS, DRIVES, GRIPS, COUPLINGS))

@@ -107,6 +107,21 @@ def test_a_lost_grip_ends_the_episode_or_not(on_loss, ends):
     assert all(truncations.values()) is not ends
 
 
+def test_a_hand_lets_go_between_two_samples_of_a_slow_sensor():
+    gait = {"enabled": True}
+    force = np.stack([s.force_on_base for s in walk(60, gait=gait)])
+    size = np.hypot(force[..., 0], force[..., 1])
+    late = int((size.max(axis=1) > 3.0).argmax())
+    limit = 0.5 * (size[late, 4] + size[late, 5])
+    assert size[:late].max() < limit < size[late, -1], "it rises through the limit within a step"
+    plant = BulletPlant(Rates(sensor=20), gait=gait, grip={"release_force": limit})
+    plant.reset(WORLD, np.random.default_rng(0))
+    states = [plant.step((0.8, 0.0), (0.0, 0.0)) for _ in range(late + 1)]
+    plant.close()
+    assert [state.grip_held for state in states] == [True] * late + [False]
+    assert not states[-1].wrench_on_base.any(), "gone before the sensor looks"
+
+
 def test_a_reset_takes_hold_again():
     plant = BulletPlant(Rates(), grip={"release_force": 8.0})
     runs = []

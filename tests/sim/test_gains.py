@@ -114,3 +114,22 @@ def test_one_mass_meets_the_closed_form(stiffness):
 
     assert growth(0.999 * limit) <= 1.0 + 1e-9
     assert growth(1.001 * limit) > 1.0 + 1e-6
+
+
+@pytest.mark.parametrize(
+    ("drive", "physics", "words"),
+    [
+        ({"gain_sideways": 1e6}, 240, "a base of 40 kg and a physics step of 4.2 ms carry at most"),
+        ({"gain_forward": 1999.0}, 60, "carry at most 1200; lower it or raise rates.physics"),
+        ({"gain_yaw": 1e4}, 240, "drive.gain_yaw = 10000 N m s/rad: a base of"),
+    ],
+)
+def test_a_drive_gain_that_would_be_cut_is_refused(drive, physics, words):
+    with pytest.raises(InputError) as refused:
+        BulletPlant(Rates(physics=physics, sensor=20), drive=drive)
+    assert words in str(refused.value)
+    assert "\n" not in str(refused.value)
+
+
+def test_default_gains_of_the_drive_go_with_the_physics_step():
+    BulletPlant(Rates(physics=60, sensor=20)).close()

@@ -1,8 +1,8 @@
 """Numbers that make no sense, and those that would do nothing, are refused with what would."""
 
+import dataclasses
 import math
 import re
-from dataclasses import replace
 from xml.etree import ElementTree
 
 import numpy as np
@@ -10,19 +10,24 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from cowalk.sim.anthropometry import BodyParameters
 from cowalk.sim.bullet import BulletPlant
 from cowalk.sim.bullet_coupling import CouplingParameters
 from cowalk.sim.bullet_wheels import refuse_wide_track, wheels_urdf
 from cowalk.sim.drive import RANGES, DriveParameters
 from cowalk.sim.errors import InputError
+from cowalk.sim.gait import GaitParameters
 from cowalk.sim.grip import GripParameters
+from cowalk.sim.motion import TwistBounds
+from cowalk.sim.parameters import parameters
 from cowalk.sim.path import Path
 from cowalk.sim.plant import Rates
 from cowalk.sim.robot import RobotParameters, robot_of
-from cowalk.sim.sensor_parameters import SensorParameters
+from cowalk.sim.sensor_parameters import SensorParameters, sensor_preset
 from cowalk.sim.urdf import lump
 from cowalk.sim.walker import WalkerParameters
 from cowalk.sim.world import World
+from cowalk.sim.wrench import SensorMount
 
 
 @pytest.mark.parametrize("name", RANGES)
@@ -43,7 +48,7 @@ def test_a_drive_has_its_ends_and_nothing_beyond(name):
         (DriveParameters, {"max_force": 0.0}, "max_force = 0.0 N: must lie between 1 and 10000 N"),
         (DriveParameters, {"gain_forward": 0.0}, "gain_forward = 0.0 N s/m: must lie between 10"),
         (DriveParameters, {"delay": 100.0}, "delay = 100.0 s: must lie between 0 and 1 s"),
-        (SensorParameters, {"latency": 100.0}, "latency = 100.0 s: it must lie between 0 and 1 s"),
+        (SensorParameters, {"latency": 100.0}, "latency = 100.0 s: must lie between 0 and 1 s"),
         (WalkerParameters, {"delay": 100.0}, "delay = 100.0 s: must lie between 0 and 0.3 s"),
         (WalkerParameters, {"hand_stiffness": math.inf}, "hand_stiffness = inf N/m: must lie"),
         (CouplingParameters, {"kind": "stretcher", "mass": 0.0}, "mass = 0.0 kg: must lie between"),
@@ -75,7 +80,7 @@ def test_wheels_leave_the_base_moments_of_inertia_that_a_body_can_have(track, ra
         # What it proposes is taken, and what it refuses is not far beyond what no body has.
         widest = float(re.search(r"must be ([\d.]+) m or less", str(error))[1])
         assert 1.2 < widest < track
-        drive = replace(drive, wheel_track=widest)
+        drive = dataclasses.replace(drive, wheel_track=widest)
         refuse_wide_track(SHIPPED, drive)
     root = ElementTree.fromstring(wheels_urdf(SHIPPED, drive))
     for inertia in root.iter("inertia"):
@@ -102,3 +107,94 @@ def test_a_base_on_the_widest_track_drives_and_a_wider_one_is_refused():
 def test_defaults_written_out_are_no_mistake():
     CouplingParameters(kind="handle", mass=8.0, length=1.2, width=0.5)
     DriveParameters(kind="wheels", gain_forward=2000.0)
+
+
+KINDS = (
+    *(BodyParameters, CouplingParameters, DriveParameters, GaitParameters, GripParameters, Rates),
+    *(RobotParameters, SensorMount, SensorParameters, TwistBounds, WalkerParameters),
+)
+OTHERWISE = {
+    bool: ("no", 1, None),
+    int: ("20", 20.5, True, math.nan, None),
+    float: ("tall", True, [1.0], {}, math.nan),
+    str: (3, [], True),
+    tuple: (3.0, "abc", (1.0,), (1.0, "a", 2.0), (1.0, True), [[1.0], [2.0], [3.0]]),
+    type(None): ([1.0], {}, True),
+}
+"""What is wrong for a value of each kind."""
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
+def test_a_value_of_another_kind_is_refused_with_its_name(kind):
+    usual = kind()
+    for item in dataclasses.fields(kind):
+        for value in OTHERWISE[type(getattr(usual, item.name))]:
+            if kind is SensorParameters and value == [1.0]:
+                continue  # the wrong number of a list that may be given: see test_sensor
+            with pytest.raises(InputError, match=rf"^(rates\.)?{item.name} ") as refused:
+                kind(**{item.name: value})
+            assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        (3, "body = 3: give a mapping or BodyParameters of height, mass, hand"),
+        ({"height": "tall"}, "body.height = 'tall': a number is expected, in m"),
+        ({"height": True}, "body.height = True: a number is expected, in m"),
+        ({"height": 0.3}, "body.height = 0.3 m: must lie between 1.2 and 2.2 m"),
+        ({3: 1.8}, "body.3: unknown key; known: height, mass, hand"),
+        (RobotParameters(), "body = RobotParameters.*: give a mapping or BodyParameters"),
+    ],
+)
+def test_a_section_says_where_it_is_wrong(given, words):
+    with pytest.raises(InputError, match=f"^{words}"):
+        parameters("body", BodyParameters, given)
+
+
+def test_a_number_may_come_from_numpy_and_a_list_be_an_array():
+    assert BodyParameters(height=np.float32(1.5)).height == 1.5
+    assert Rates(control=np.int64(40)).control == 40
+    assert SensorMount(position=np.array([0.1, 0.0, 0.0])).position == (0.1, 0.0, 0.0)
+    assert TwistBounds(upper=[1.0, 0.3]).upper == (1.0, 0.3)
+    matrix = np.array([[0.0, 0.1], [0.2, 0.0]])
+    sensor = SensorParameters(bias=np.array([1.0, 2.0]), cross_talk=matrix)
+    assert sensor == SensorParameters(bias=(1.0, 2.0), cross_talk=((0.0, 0.1), (0.2, 0.0)))
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"cross_talk": math.nan}, "cross_talk = nan: must lie between 0 and 0.5"),
+        ({"cross_talk": -0.5}, "cross_talk = -0.5: must lie between 0 and 0.5"),
+        ({"cross_talk": 1e9}, "cross_talk = 1000000000.0: must lie between 0 and 0.5"),
+        ({"cross_talk": ((0.0, 1e9), (0.0, 0.0))}, "cross_talk = 1000000000.0: must lie between"),
+        ({"noise_density": 1e300}, "noise_density = 1e[+]300 N/sqrt.Hz.: must lie between 0 and"),
+        ({"torque_bias": (0.0, -1e300)}, "torque_bias = -1e[+]300 N m: must lie between -10000"),
+        ({"drift": math.inf}, "drift = inf N/h: must lie between"),
+        ({"tare": "no"}, "tare = 'no': true or false is expected"),
+        ({"rate": 1e-4}, "rate = 0.0001 Hz: must lie between 1 and .* Hz, or be 0"),
+        ({"range": 0.0}, "range = 0.0 N: must lie between .* N, or be left out"),
+        ({"range": 1.0, "resolution": 1.5}, "resolution = 1.5 N: must not be above range = 1.0 N"),
+        (
+            {"torque_range": 1.0, "torque_resolution": 2.0},
+            "torque_resolution = 2.0 N m: must not be above torque_range = 1.0 N m",
+        ),
+    ],
+)
+def test_a_sensor_that_nobody_can_have_is_refused(given, words):
+    with pytest.raises(InputError, match=f"^{words}"):
+        SensorParameters(**given)
+    with pytest.raises(InputError, match=f"^sensor.{words}"):
+        sensor_preset("laboratory", **given)
+
+
+def test_a_preset_has_no_other_keys():
+    with pytest.raises(InputError, match=r"^sensor.rang: unknown key; did you mean 'range'\?"):
+        sensor_preset("laboratory", rang=3.0)
+
+
+def test_a_sensor_may_have_as_many_faults_as_its_ranges_allow():
+    SensorParameters(rate=1.0, range=1.0, resolution=1.0, cross_talk=0.5, low_pass=0.1)
+    SensorParameters(rate=0, low_pass=0, range=math.inf, bias=-1e4, drift=(1e5, -1e5))
+    SensorParameters(cross_talk=((-1.0, 0.0), (0.0, -1.0)))  # two dead channels

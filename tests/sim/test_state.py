@@ -12,6 +12,7 @@ from cowalk.sim.bullet import BulletPlant
 from cowalk.sim.bullet_engine import connect, disconnect
 from cowalk.sim.env import STRAIGHT_CORRIDOR
 from cowalk.sim.errors import InputError, SimulationError
+from cowalk.sim.motion import TwistBounds
 from cowalk.sim.path import Path
 from cowalk.sim.plant import Rates
 from cowalk.sim.plants import PLANTS
@@ -91,6 +92,10 @@ def test_a_state_goes_on_in_another_environment_made_alike(arguments, make):
         ({"plant_parameters": {"body": {"hand": "both"}}}, "another plant_parameters;"),
         ({"rates": Rates(control=40)}, "another rates;"),
         ({"sensor": FAULTY}, "another sensor;"),
+        ({"bounds": TwistBounds(upper=(1.0, 0.5))}, "another bounds;"),
+        ({"pace": 0.7}, "another pace;"),
+        ({"duration": 20.0}, "another duration;"),
+        ({"force_limit": 20.0}, "another force_limit;"),
     ],
     ids=lambda given: next(iter(given)) if isinstance(given, dict) else "",
 )

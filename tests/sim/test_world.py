@@ -1,11 +1,13 @@
 """Distances in closed form and by the engine, and worlds that make no sense."""
 
+import gc
 import math
 
 import numpy as np
 import pytest
 
 from cowalk.sim import parallel_env
+from cowalk.sim.bullet_engine import connect, disconnect, engine
 from cowalk.sim.bullet_world import EngineClearance
 from cowalk.sim.clearance import Clearance
 from cowalk.sim.errors import InputError
@@ -181,17 +183,45 @@ def test_running_into_something_solid_ends_the_episode(plant, thing):
     assert -0.1 < infos["human"]["clearance"] < 0.0
 
 
-def test_engine_worlds_are_given_back_and_used_again_empty():
+def test_distances_share_an_engine_world_and_do_not_see_each_other():
     world = World(PATH, obstacles=(Obstacle(3.0, 0.0, 0.5, "pillar"),))
-    clients = set()
+    stays = engine_clearance(world, 0.3)
     for _ in range(30):
         full, empty = engine_clearance(world, 0.3), engine_clearance(World(PATH), 0.3)
         assert full(0.0, (1.0, 0.0, 0.0))[0] == pytest.approx(1.2, **NEAR)
         assert empty(0.0, (1.0, 0.0, 0.0))[0] == math.inf
-        clients |= {full._client, empty._client}
+        assert full._client == empty._client == stays._client
         for clearance in (full, empty, full):
             clearance.close()
-    assert len(clients) <= 4
+        assert stays(0.0, (2.0, 0.0, 0.0))[0] == pytest.approx(0.2, **NEAR)
+    bodies = engine.getNumBodies(stays._client)
+    stays.close()
+    assert engine.getNumBodies(stays._client) < bodies
+
+
+def test_who_is_not_closed_is_freed_with_the_last_reference():
+    env = parallel_env()
+    env.reset(seed=0)
+    client = env.plant._pair.client
+    distances = env._distances._client
+    bodies = engine.getNumBodies(distances)
+    assert engine.isConnected(client)
+    del env
+    gc.collect()
+    assert not engine.isConnected(client)
+    assert engine.getNumBodies(distances) < bodies
+
+
+def test_a_client_that_was_given_out_again_is_not_freed_with_its_former_owner():
+    env = parallel_env()
+    client = env.plant._pair.client
+    engine.disconnect(client)
+    other = connect()
+    assert other == client
+    del env
+    gc.collect()
+    assert engine.isConnected(other)
+    disconnect(other)
 
 
 def test_a_bullet_plant_measures_by_the_engine_and_the_unicycle_in_closed_form():
