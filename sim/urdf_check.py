@@ -64,7 +64,8 @@ def numbers(element: Element, attribute: str) -> Array:
     text = element.get(attribute, rule.default)
     parts = (text or "").split()
     try:
-        values = np.array([float(part) for part in parts])
+        # Python reads 1_0 as ten, others as one.
+        values = np.array([float(part.replace("_", "?")) for part in parts])
     except ValueError:
         values = np.array([np.nan])
     right = len(values) == rule.needed and np.isfinite(values).all()

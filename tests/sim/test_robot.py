@@ -122,6 +122,7 @@ INERTIAL, VISUAL = "link 'chassis', <inertial>", "link 'chassis', <visual>"
             'xyz=""',
             """joint 'grip': <origin xyz="">: must be 3 finite numbers, x y z in m""",
         ),
+        (PLACE, 'xyz="0 0 1_0"', """joint 'grip': <origin xyz="0 0 1_0">: must be 3 finite"""),
         (PLACE, 'rpy="0 0"', """<origin rpy="0 0">: must be 3 finite numbers, roll pitch yaw in"""),
         ('xyz="0 0 0.2"', 'xyz="x 0 0"', f'{INERTIAL}: <origin xyz="x 0 0">: must be 3 finite'),
         (HEAVY, '<mass value="inf"/>', f'{INERTIAL}: <mass value="inf">: must be a finite number'),
