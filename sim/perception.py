@@ -43,7 +43,7 @@ class Perception:
 
     def __init__(self, world: World, bodies: Bodies, samples: int) -> None:
         self._human, self._automation = (Eyes(world, seat, bodies.eyes[seat]) for seat in SEATS)
-        self._samples = samples
+        self._arrived = np.ones(samples)
 
     def __call__(
         self,
@@ -71,7 +71,7 @@ class Perception:
                 twist=np.array(state.twist),
                 force=wrench[:, :2].copy(),
                 wrench=wrench.copy(),
-                force_valid=np.ones(self._samples),
+                force_valid=self._arrived.copy(),
                 pose=np.array(relative_pose),
                 pose_world=np.array(pose),
                 obstacles=self._human.look(pose, human_pose, time),
