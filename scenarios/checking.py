@@ -80,13 +80,14 @@ def check(document: Document) -> tuple[Scenario | None, list[Problem]]:
 def _with_preset(data: dict[str, Any]) -> tuple[dict[str, Any], list[Problem]]:
     """Return the data with the sensor's preset written out beneath what is given beside it."""
     section = data.get("sensor", {})
-    if section in (False, None, {"preset": "none"}):  # YAML reads "off" as false
+    if section is None or section is False:  # as YAML reads "off"
         return {**data, "sensor": {}}, []
     if not isinstance(section, dict) or "preset" not in section:
         return data, []
     given = {key: value for key, value in section.items() if key != "preset"}
+    named = section["preset"]
     try:
-        preset = asdict(sensor_preset(str(section["preset"])))
+        preset = asdict(sensor_preset("none" if named in (None, False) else str(named)))
     except InputError as error:
         return {**data, "sensor": given}, [Problem(("sensor", "preset"), f"sensor.preset: {error}")]
     off = asdict(SensorParameters())

@@ -76,5 +76,5 @@ def require_reachable(pace: float, bounds: TwistBounds) -> None:
     if pace > bounds.upper[0]:
         raise InputError(
             f"pace = {pace:g} m/s: must not be above the upper bound of v, "
-            f"bounds.upper.0 = {bounds.upper[0]:g} m/s"
+            f"{bounds.upper[0]:g} m/s (bounds.upper); give a pace of that or less, or raise it"
         )

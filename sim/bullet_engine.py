@@ -10,6 +10,7 @@ import ctypes.util
 import importlib
 import os
 import sys
+import threading
 import weakref
 from collections import Counter
 from collections.abc import Callable, Iterator
@@ -19,6 +20,8 @@ from tempfile import TemporaryDirectory
 
 from .errors import InputError
 
+_QUIET = threading.RLock()
+
 
 @contextmanager
 def quiet(*descriptors: int) -> Iterator[None]:
@@ -27,6 +30,12 @@ def quiet(*descriptors: int) -> Iterator[None]:
     They are pointed at the null device meanwhile. C's own buffers are flushed before they are
     pointed back, else the text would come out when the process ends.
     """
+    # One at a time: a second thread would take the null device for the original.
+    with _QUIET:
+        yield from _pointed_away(descriptors)
+
+
+def _pointed_away(descriptors: tuple[int, ...]) -> Iterator[None]:
     c_library = ctypes.CDLL(None) if os.name == "posix" else ctypes.CDLL("msvcrt")
     for stream in (sys.stdout, sys.stderr):
         with suppress(AttributeError, OSError, ValueError):  # none, or closed

@@ -32,6 +32,8 @@ CAMERA_DISTANCE, CAMERA_PITCH, CAMERA_SIDE, CAMERA_FIELD = 3.3, -24.0, 32.0, 50.
 away for a person of `CAMERA_SUITS`; for taller ones it backs off and looks higher."""
 CAMERA_HEIGHT, CAMERA_SUITS = 0.8, 1.75
 """How high it looks, and the height of a person who fits into its picture with some air, m."""
+LENGTH_SUITS = 1.2
+"""Length of a load that does too, m: from longer ones it backs off by what they are longer."""
 TOP_DISTANCE, TOP_FIELD, TOP_AHEAD = 24.0, 10.0, 0.8
 """Top camera, far away so that it hardly distorts: m, degrees, m ahead of the pair."""
 
@@ -82,6 +84,8 @@ class Viewer:
         self._gui = gui
         scale = max(1.0, look.human.parameters.height / CAMERA_SUITS)
         self._aim, self._distance = scale * CAMERA_HEIGHT, scale * CAMERA_DISTANCE
+        if look.load is not None:
+            self._distance += max(0.0, look.load.length - LENGTH_SUITS)
         self._target = (0.0, 0.0, self._aim)
         self._yaw = 0.0
         self._shown = 0.0

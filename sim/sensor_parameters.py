@@ -241,7 +241,7 @@ def sensor_preset(name: str, **changes: Any) -> SensorParameters:
     Parameters
     ----------
     name : str
-        ``laboratory``, ``industrial`` or ``low-cost``.
+        ``laboratory``, ``industrial``, ``low-cost``, or ``none`` for one without faults.
     **changes
         See `SensorParameters`.
 
@@ -250,6 +250,9 @@ def sensor_preset(name: str, **changes: Any) -> SensorParameters:
     InputError
         If there is no such preset, or a change is refused.
     """
+    if name == "none":
+        return parameters("sensor", SensorParameters, changes)
     if name not in PRESETS:
-        raise InputError(f"unknown sensor preset {name!r}; {did_you_mean(name, list(PRESETS))}")
+        near = did_you_mean(str(name), list(PRESETS))
+        raise InputError(f"unknown sensor preset {name!r}; {near}")
     return parameters("sensor", SensorParameters, vars(PRESETS[name][1]) | changes)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -13,6 +14,9 @@ from .frames import Frame, Vector, rotation, within
 from .motion import Array
 from .urdf_check import check, number, numbers
 
+COARSE = 1.5
+"""By how much one moment of inertia may be more than the other two together, which no body has:
+links of published robots are off by up to a sixth, wrong units by far more (inferred)."""
 LEAST_MASS = 1.0
 """Of a robot that two can hold, kg (inferred): below it units or decimals are usually wrong."""
 
@@ -51,7 +55,7 @@ def read_robot(path: Path) -> ElementTree.Element:
         root = ElementTree.parse(path).getroot()
     except OSError as error:
         raise InputError(f"robot.urdf = {str(path)!r}: no such file can be read") from error
-    except ElementTree.ParseError as error:
+    except (ElementTree.ParseError, LookupError) as error:  # the latter: an unknown encoding
         raise InputError(f"robot.urdf = {str(path)!r}: no XML: {error}") from error
     if root.tag != "robot" or root.find("link") is None:
         raise InputError(f"robot.urdf = {str(path)!r}: no <robot> with a <link> in it")
@@ -82,8 +86,7 @@ def _inertia(link: str, element: ElementTree.Element) -> Array:
     moments = f"principal moments {least:.3g}, {middle:.3g}, {most:.3g} kg m^2"
     if least <= 0.0:
         raise InputError(f"robot: link {link!r} has {moments}: all three must be above 0")
-    # Thin plates meet it with equality, which files give in few digits.
-    if most > 1.01 * (least + middle):
+    if most > COARSE * (least + middle):
         raise InputError(
             f"robot: link {link!r} has {moments}: no body can have more about one axis than "
             "about the other two together"
@@ -102,16 +105,15 @@ def link_frames(root: ElementTree.Element) -> dict[str, Frame]:
     children = {_end(joint, "child"): joint for joint in root.findall("joint")}
     frames: dict[str, Frame] = {}
 
-    def frame(name: str, depth: int = 0) -> Frame:
-        if name not in frames:
-            joint = children.get(name)
-            if joint is None:
-                frames[name] = np.eye(3), np.zeros(3)
-            else:
-                if depth > len(children):
-                    raise InputError(f"robot: the joints above link {name!r} form a loop")
-                above = frame(_end(joint, "parent"), depth + 1)
-                frames[name] = within(above, origin(joint))
+    def frame(name: str) -> Frame:
+        above = [name]  # up to what is known; a file may be thousands of links deep
+        while above[-1] not in frames and above[-1] in children:
+            if len(above) > len(children):
+                raise InputError(f"robot: the joints above link {name!r} form a loop")
+            above.append(_end(children[above[-1]], "parent"))
+        frames.setdefault(above[-1], (np.eye(3), np.zeros(3)))
+        for upper, lower in pairwise(reversed(above)):
+            frames[lower] = within(frames[upper], origin(children[lower]))
         return frames[name]
 
     names = [link.get("name", "") for link in root.findall("link")]

@@ -15,6 +15,8 @@ from .outline import SIDES, Disc, Outline, hull
 from .urdf import link_frames, origin
 from .urdf_check import number, numbers
 
+FARTHEST = 5.0
+"""From its root to the end of any shape of a robot that walks with people, m (inferred)."""
 UPRIGHT = 1.0 - 1e-9
 """Cosine of the tilt up to which a cylinder counts as upright."""
 
@@ -87,8 +89,16 @@ def robot_outline(solids: tuple[Solid, ...]) -> tuple[Outline, float]:
     Raises
     ------
     InputError
-        If the shapes have no breadth.
+        If the shapes have no breadth, or one is larger than what walks with people.
     """
+    for solid in solids:
+        reach = float(np.abs(solid.points).max()) + solid.radius
+        if reach > FARTHEST:
+            mesh = "; a mesh drawn in mm needs scale='0.001 0.001 0.001'"
+            raise InputError(
+                f"robot: a shape of link {solid.link!r} reaches {reach:.4g} m from the root: must "
+                f"be {FARTHEST:g} m or less{mesh if solid.faces is not None else ''}"
+            )
     try:
         outline = hull(disc for solid in solids for disc in solid.discs)
     except ValueError as error:

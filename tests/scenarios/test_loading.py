@@ -278,7 +278,11 @@ def test_a_sensor_that_converts_no_more_than_once_in_a_run_is_refused(scenario_f
     [
         ("50", "pace = 50.0 m/s: must lie between 0.01 and 5 m/s"),
         ("0", "pace = 0.0 m/s: must lie between 0.01 and 5 m/s"),
-        ("1.3", "pace = 1.3 m/s: must not be above the upper bound of v, bounds.upper.0 = 1.2 m/s"),
+        (
+            "1.3",
+            "pace = 1.3 m/s: must not be above the upper bound of v, 1.2 m/s (bounds.upper); "
+            "give a pace of that or less, or raise it",
+        ),
     ],
 )
 def test_a_pace_that_nobody_can_walk_at_is_refused_at_its_line(scenario_file, pace, words):

@@ -39,6 +39,10 @@ def test_a_preset_stands_for_its_parameters(with_sensor):
 def test_a_sensor_can_be_taken_off(with_sensor, off):
     assert load(with_sensor(off)).sensor == SensorParameters()
     assert load(with_sensor("industrial"), (f"sensor={off}",)).sensor == SensorParameters()
+    if off != "{}":
+        assert load(with_sensor(f"{{preset: {off}}}")).sensor == SensorParameters()
+        late = load(with_sensor("industrial"), (f"sensor.preset={off}", "sensor.latency=0.01"))
+        assert late.sensor == sensor_preset("none", latency=0.01)
 
 
 def test_a_preset_can_be_set_and_changed_from_the_command_line(with_sensor):

@@ -145,6 +145,20 @@ def test_people_of_any_height_are_wholly_in_the_picture_with_some_air(height, co
         np.testing.assert_array_equal(camera.projection, usual.projection)
 
 
+@pytest.mark.parametrize("height", [1.2, 1.75, 2.1])
+@pytest.mark.parametrize("length", [2.0, 3.0])
+def test_who_carries_a_long_load_is_wholly_in_the_picture(length, height):
+    load = {"kind": "stretcher", "length": length}
+    plant = BulletPlant(Rates(), body={"height": height}, coupling=load)
+    state = plant.reset(World(Path(((0.0, 0.0), (20.0, 0.0)))), np.random.default_rng(0))
+    camera = plant.viewer().camera("chase", *VIEW)
+    plant.close()
+    for high in (0.0, height):
+        column, row = camera.project((*state.human_pose[:2], high))
+        assert 0.1 * VIEW[0] < column < 0.9 * VIEW[0]
+        assert 0.1 * VIEW[1] < row < 0.95 * VIEW[1]
+
+
 @pytest.mark.parametrize(("share", "other"), [(0.25, 0.75), (0.75, 0.25)])
 def test_bars_are_as_long_as_what_they_stand_for(tmp_path, share, other):
     watcher = still(

@@ -197,6 +197,21 @@ def test_no_window_is_one_line(monkeypatch):
         connect(gui=True)
 
 
+def test_output_comes_back_after_worlds_were_opened_in_several_threads():
+    code = (
+        "from concurrent.futures import ThreadPoolExecutor\n"
+        "from cowalk.sim.bullet import BulletPlant, Rates\n"
+        "def one(_):\n"
+        "    for _ in range(5):\n"
+        "        BulletPlant(Rates()).close()\n"
+        "with ThreadPoolExecutor(4) as pool:\n"
+        "    list(pool.map(one, range(4)))\n"
+        "print('here')"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert run.stdout == "here\n"
+
+
 def test_engine_is_silent():
     code = (
         "from cowalk.sim.bullet import BulletPlant, Rates\n"

@@ -5,6 +5,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+import trimesh
 
 from cowalk.sim.bullet import BulletPlant
 from cowalk.sim.bullet_engine import connect, disconnect, engine, load
@@ -14,7 +15,7 @@ from cowalk.sim.human_figure import BodyParameters, figure_urdf
 from cowalk.sim.path import Path
 from cowalk.sim.plant import Rates
 from cowalk.sim.robot import RobotParameters, robot_of
-from cowalk.sim.urdf import lump, mirrored
+from cowalk.sim.urdf import link_frames, lump, mirrored
 from cowalk.sim.world import World
 
 OWN = """<robot name="own">
@@ -97,7 +98,7 @@ HEAVY = '<mass value="20"/>'
     [
         (CHASSIS, CHASSIS.replace('izz="2"', 'izz="-2"'), "izz = -2 kg m.2: must be above 0"),
         (CHASSIS, CHASSIS.replace('ixy="0"', 'ixy="1.5"'), "moments -0.5, 2, 2.5 .* above 0"),
-        (CHASSIS, CHASSIS.replace('izz="2"', 'izz="3"'), "moments 1, 1, 3 kg m.2: no body can"),
+        (CHASSIS, CHASSIS.replace('izz="2"', 'izz="4"'), "moments 1, 1, 4 kg m.2: no body can"),
         (HEAVY, '<mass value="-20"/>', "mass = -20 kg"),
     ],
 )
@@ -105,6 +106,45 @@ def test_masses_and_inertias_that_no_body_has(old, new, named):
     assert old in OWN
     with pytest.raises(InputError, match=f"link 'chassis' has .*{named}"):
         lump(ElementTree.fromstring(OWN.replace(old, new)))
+
+
+def test_moments_of_inertia_may_be_off_as_those_of_published_robots_are(own):
+    own.write_text(OWN.replace('izz="2"', 'izz="2.32"'))
+    robot = robot_of(RobotParameters(str(own), "grip"), "left", "handle")
+    assert robot.rigid.yaw_inertia == pytest.approx(
+        lump(ElementTree.fromstring(OWN)).yaw_inertia + 0.32
+    )
+
+
+def test_a_chain_of_thousands_of_links_is_read_whatever_their_order():
+    count = 3000
+    joints = "".join(
+        f'<joint name="j{n}" type="fixed"><parent link="l{n}"/><child link="l{n + 1}"/>'
+        '<origin xyz="0.001 0 0"/></joint>'
+        for n in range(count)
+    )
+    links = "".join(f'<link name="l{n}"/>' for n in reversed(range(count + 1)))
+    frames = link_frames(ElementTree.fromstring(f'<robot name="long">{links}{joints}</robot>'))
+    assert frames[f"l{count}"][1] == pytest.approx((3.0, 0.0, 0.0))
+
+
+def test_an_unknown_encoding_is_no_xml(own):
+    own.write_text('<?xml version="1.0" encoding="foo"?>' + OWN)
+    with pytest.raises(InputError, match=r"own\.urdf'?: no XML: unknown encoding: foo"):
+        robot_of(RobotParameters(str(own), "grip"), "left", "handle")
+
+
+def test_a_robot_in_millimetres_is_refused_at_once(own, tmp_path):
+    trimesh.creation.box((600.0, 500.0, 900.0)).export(tmp_path / "mm.stl")
+    own.write_text(
+        OWN.replace(
+            "<visual>",
+            '<collision><geometry><mesh filename="mm.stl"/></geometry></collision><visual>',
+        )
+    )
+    words = "of link 'chassis' reaches 450 m from the root: must be 5 m or less; a mesh drawn in mm"
+    with pytest.raises(InputError, match=words):
+        robot_of(RobotParameters(str(own), "grip"), "left", "handle")
 
 
 BOX = '<box size="0.5 0.4 0.3"/>'
