@@ -255,3 +255,18 @@ def test_a_bullet_plant_measures_by_the_engine_and_the_unicycle_in_closed_form()
 def test_nonsense_is_refused(thing, kwargs, named):
     with pytest.raises(InputError, match=named.replace(".", r"\.")):
         thing(**kwargs)
+
+
+@pytest.mark.parametrize(
+    ("parts", "named"),
+    [
+        ({"obstacles": (Obstacle(1.0, 2.0, 0.3), Obstacle(math.nan, 0.0, 0.3))}, "obstacles.1.x"),
+        ({"furniture": (Furniture(1.0, 2.0, 1.0, 1.0, math.inf),)}, "furniture.0.yaw = inf"),
+        ({"walls": (Wall((0.0, 1.0), (3.0, math.nan)),)}, "walls.0.end.1 = nan"),
+        ({"corridor": Corridor(3.0, (Doorway(-math.inf, 1.0),))}, "corridor.doorways.0.x = -inf"),
+        ({"start": (0.0, math.nan, 0.0)}, "start.1 = nan"),
+    ],
+)
+def test_a_place_that_is_not_finite_is_named(parts, named):
+    with pytest.raises(InputError, match=f"^{named}.*: must be finite$"):
+        World(PATH, **parts)
