@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any, Protocol
 
 from .bullet_engine import engine, load
-from .drive import DriveParameters, SlipDrive
+from .drive import DriveParameters, SlipDrive, slip_gains
 from .frames import Vector
 from .urdf import Rigid
 from .urdf_chain import link, planar
@@ -171,7 +171,8 @@ class SlipBase(Slab):
 
     def __init__(self, client: int, rigid: Rigid, parameters: DriveParameters, step: float) -> None:
         super().__init__(client, "base", rigid)
-        self._drive = SlipDrive(parameters, rigid.mass, rigid.yaw_inertia, step)
+        gains = slip_gains(parameters, rigid.mass, rigid.yaw_inertia, step)
+        self._drive = SlipDrive(parameters, gains, step)
         self._wrench = self._drive.wrench
         self.command = self._drive.command.set
         self.reset = self._drive.command.reset

@@ -25,12 +25,12 @@ class SharedWorld:
         self._users += 1
         return self._client
 
-    def shape(self, client: int, wanted: tuple[Any, ...]) -> int:
-        """Return a shape of a kind and arguments: made once, as the engine frees no used one."""
+    def shape(self, kind: int, **arguments: Any) -> int:
+        """Return a shape for who has entered: made once, as the engine frees no used one."""
+        wanted = (kind, *arguments.items())
         if wanted not in self._shapes:
-            kind, *arguments = wanted
             self._shapes[wanted] = engine.createCollisionShape(
-                kind, physicsClientId=client, **dict(arguments)
+                kind, physicsClientId=self._client, **arguments
             )
         return self._shapes[wanted]
 

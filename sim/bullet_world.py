@@ -10,7 +10,6 @@ import math
 import weakref
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from .bullet_engine import engine
 from .bullet_shared import SHARED
@@ -81,7 +80,7 @@ class EngineClearance:
         boxes += [(furniture(item), item.top) for item in world.furniture]
         for box, top in boxes:
             extents = box.half_length, box.half_width, HEIGHT / 2.0
-            shape = self._shape(engine.GEOM_BOX, halfExtents=extents)
+            shape = SHARED.shape(engine.GEOM_BOX, halfExtents=extents)
             shapes.append((shape, box.x, box.y, box.yaw, True))
             tops.append(top)
         self._solid = [solid for *_, solid in shapes]
@@ -95,15 +94,12 @@ class EngineClearance:
 
     def _round(self, radius: float, x: float = 0.0, y: float = 0.0) -> int:
         # Not a cylinder: how deep one is inside a long wall the engine sometimes cannot tell.
-        return self._shape(
+        return SHARED.shape(
             engine.GEOM_CAPSULE,
             radius=radius,
             height=HEIGHT,
             collisionFramePosition=(x, y, 0.0),
         )
-
-    def _shape(self, kind: int, **arguments: Any) -> int:
-        return SHARED.shape(self._client, (kind, *arguments.items()))
 
     def _outline(self, outline: Outline) -> tuple[int, float]:
         """Return the shape of an outline, and by how much the engine takes it for larger, m."""
@@ -114,7 +110,7 @@ class EngineClearance:
             dx, dy = others[0][0] - first[0], others[0][1] - first[1]
             # A capsule is built along z; lying at half height it is as far as from above.
             lying = engine.getQuaternionFromEuler((0.0, math.pi / 2.0, math.atan2(dy, dx)))
-            shape = self._shape(
+            shape = SHARED.shape(
                 engine.GEOM_CAPSULE,
                 radius=first[2],
                 height=math.hypot(dx, dy),
@@ -125,7 +121,7 @@ class EngineClearance:
         corners = tuple(
             (x, y, z) for x, y in outline.polygon.tolist() for z in (-HEIGHT / 2.0, HEIGHT / 2.0)
         )
-        return self._shape(engine.GEOM_MESH, vertices=corners), MARGIN
+        return SHARED.shape(engine.GEOM_MESH, vertices=corners), MARGIN
 
     def _body(self, shape: int) -> int:
         body: int = engine.createMultiBody(0.0, shape, physicsClientId=self._client)

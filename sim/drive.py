@@ -201,21 +201,15 @@ class SlipDrive:
     Parameters
     ----------
     parameters : DriveParameters
-    mass, inertia : float
-        Of the base, kg and kg m^2.
+    gains : (forward, sideways, yaw)
+        From `slip_gains`, N s/m and N m s/rad.
     step : float
         Physics step in s.
-
-    Raises
-    ------
-    InputError
-        See `slip_gains`.
     """
 
     def __init__(
-        self, parameters: DriveParameters, mass: float, inertia: float, step: float
+        self, parameters: DriveParameters, gains: tuple[float, float, float], step: float
     ) -> None:
-        gains = slip_gains(parameters, mass, inertia, step)
         self._gain_forward, self._gain_sideways, self._gain_yaw = gains
         self._max_force = parameters.max_force
         self._max_torque = parameters.max_torque

@@ -25,8 +25,6 @@ MESH_STEP = 0.02
 """How far a human is moved before a mesh that they stand inside of is looked at again, m."""
 ASIDE = {"backwards": (-1.0, 0.0), "right": (0.0, -1.0), "left": (0.0, 1.0), "forwards": (1.0, 0.0)}
 """Where to a handle may be moved, base axes."""
-
-
 COARSE = 4
 """Every how manieth corner of a slice meshes are compared with: it is then 2 mm smaller."""
 
@@ -99,9 +97,8 @@ def refuse_overlap(
         return
     every = (_block(*pair) for pair in _pairs(body, place, solids))
     blocks = [block for block in every if block is not None]
-    ways = {name: _way_out(blocks, np.array(way)) for name, way in ASIDE.items()}
-    nearest = min(ways, key=lambda name: ways[name])
-    move = math.ceil(100.0 * (ways[nearest] + TOLERANCE)) / 100.0
+    shortest, nearest = min((_way_out(blocks, np.array(way)), side) for side, way in ASIDE.items())
+    move = math.ceil(100.0 * (shortest + TOLERANCE)) / 100.0
     links = ", ".join(dict.fromkeys(repr(block.solid.link) for block in inside))
     hand, other = "both hands" if body.hand == "both" else f"the {body.hand} hand", ""
     beyond = (place[0], 2.0 * handle[1] - place[1], -place[2])
