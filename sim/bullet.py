@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from typing import Any
+from weakref import WeakSet
 
 import numpy as np
 from numpy.typing import NDArray
@@ -106,7 +107,7 @@ class BulletPlant:
         self._gui = gui
         self._viewer: Viewer | None = None
         self._world: World | None = None
-        self._distances: list[EngineClearance] = []
+        self._distances: WeakSet[EngineClearance] = WeakSet()  # who drops one frees it
         self._steps = 0
 
     def reset(self, world: World, rng: np.random.Generator) -> PlantState:
@@ -232,8 +233,9 @@ class BulletPlant:
 
     def distances(self, world: World) -> EngineClearance:
         """See `Plant.distances`: by the engine."""
-        self._distances.append(EngineClearance(world, self.bodies.parts))
-        return self._distances[-1]
+        distances = EngineClearance(world, self.bodies.parts)
+        self._distances.add(distances)
+        return distances
 
     def bare_step(self) -> None:
         """Step the engine alone, nothing driven or read: what a benchmark compares with."""
@@ -285,6 +287,6 @@ class BulletPlant:
         """See `Plant.close`."""
         if self._viewer is not None:
             self._viewer.close()
-        for distances in self._distances:
+        for distances in tuple(self._distances):
             distances.close()
         self._pair.close()
