@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from cowalk.sim.registry import Registry
+from cowalk.sim.basics.registry import Registry
 
+from .basics.protocols import Automation, Human
 from .imperfections.wrapper import Imperfection
-from .interfaces import Automation, Human
 
 HUMANS: Registry[Human] = Registry(
     "human",
@@ -20,7 +20,7 @@ HUMANS: Registry[Human] = Registry(
         "impedance": "cowalk.agents.humans.impedance:ImpedanceHuman",
         "crossover": "cowalk.agents.humans.crossover:CrossoverHuman",
         "game": "cowalk.agents.humans.game:GameHuman",
-        "recorded": "cowalk.agents.humans.recorded:RecordedHuman",
+        "recorded": "cowalk.agents.humans.recorded.human:RecordedHuman",
     },
     "cowalk.humans",
     methods=("reset", "act", "truth"),
@@ -43,9 +43,9 @@ IMPERFECTIONS: Registry[Imperfection] = Registry(
 AUTOMATIONS: Registry[Automation] = Registry(
     "automation",
     {
-        "stubbornness": "cowalk.agents.automations.stubbornness:StubbornnessAutomation",
-        "never-yields": "cowalk.agents.automations.constant:NeverYields",
-        "always-yields": "cowalk.agents.automations.constant:AlwaysYields",
+        "stubbornness": "cowalk.agents.automations.strategies.stubbornness:StubbornnessAutomation",
+        "never-yields": "cowalk.agents.automations.strategies.leads:NeverYields",
+        "always-yields": "cowalk.agents.automations.strategies.leads:AlwaysYields",
     },
     "cowalk.automations",
     methods=("reset", "act", "belief"),

@@ -8,7 +8,7 @@ from functools import partial
 from rich.console import Console
 from rich.table import Table
 
-from cowalk.sim.registry import did_you_mean
+from cowalk.sim.basics.registry import did_you_mean
 
 from . import (
     closed_loop,

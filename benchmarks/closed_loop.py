@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from cowalk.scenarios.loading import load
-from cowalk.scenarios.runner import make_env, run
-from cowalk.scenarios.schema import Component
+from cowalk.scenarios.files.loading import load
+from cowalk.scenarios.files.schema import Component
+from cowalk.scenarios.running.build import make_env
+from cowalk.scenarios.running.runner import run
 
 from .timing import best
 

@@ -10,11 +10,11 @@ from pathlib import Path
 
 import numpy as np
 
-from cowalk.scenarios.loading import load
-from cowalk.scenarios.runner import make_env
-from cowalk.sim.bullet_engine import connect, disconnect
-from cowalk.sim.drive import DRIVES
-from cowalk.sim.env import CowalkEnv
+from cowalk.scenarios.files.loading import load
+from cowalk.scenarios.running.build import make_env
+from cowalk.sim.engine.engine import connect, disconnect
+from cowalk.sim.env.env import CowalkEnv
+from cowalk.sim.robot.drive import DRIVES
 
 from .timing import best
 

@@ -14,8 +14,8 @@ from pathlib import Path
 import numpy as np
 
 from cowalk.agents import HUMANS, Human, Observation, Situation
-from cowalk.sim.motion import TwistBounds, world_to_base
-from cowalk.sim.path import Path as WalkingPath
+from cowalk.sim.basics.motion import TwistBounds, world_to_base
+from cowalk.sim.basics.path import Path as WalkingPath
 
 from .timing import best
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from cowalk.sim.bullet import BulletPlant
-from cowalk.sim.env import STRAIGHT_CORRIDOR
-from cowalk.sim.plant import Rates
+from cowalk.sim.basics.rates import Rates
+from cowalk.sim.bullet.plant import BulletPlant
+from cowalk.sim.env.env import STRAIGHT_CORRIDOR
 
 from .timing import best
 

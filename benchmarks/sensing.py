@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from cowalk.sim.env import parallel_env
-from cowalk.sim.sensor import ForceSensor, SensorParameters
-from cowalk.sim.sensor_parameters import PRESETS
-from cowalk.sim.wrench import SensorMount
+from cowalk.sim.env.env import parallel_env
+from cowalk.sim.sensor.presets import PRESETS
+from cowalk.sim.sensor.sensor import ForceSensor, SensorParameters
+from cowalk.sim.sensor.wrench import SensorMount
 
 from .timing import best
 

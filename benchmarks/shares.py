@@ -5,8 +5,8 @@ from __future__ import annotations
 import cProfile
 import pstats
 
-from cowalk.scenarios.loading import load
-from cowalk.scenarios.runner import run
+from cowalk.scenarios.files.loading import load
+from cowalk.scenarios.running.runner import run
 
 GROUPS = {
     "pybullet.stepSimulation": "engine: the step itself",

@@ -6,15 +6,16 @@ import math
 
 import numpy as np
 
-from cowalk.sim.bullet_world import EngineClearance
-from cowalk.sim.clearance import Clearance
-from cowalk.sim.env import parallel_env
-from cowalk.sim.eyes import Eyes
-from cowalk.sim.footprint import furniture, walls
-from cowalk.sim.outline import across, rectangle
-from cowalk.sim.path import Path
-from cowalk.sim.plant import BASE_RADIUS, HUMAN_RADIUS
-from cowalk.sim.world import Corridor, Furniture, Obstacle, Pedestrian, World
+from cowalk.sim.basics.path import Path
+from cowalk.sim.bullet.distances import EngineClearance
+from cowalk.sim.env.env import parallel_env
+from cowalk.sim.plant.discs import HUMAN_RADIUS
+from cowalk.sim.robot.shipped import BASE_RADIUS
+from cowalk.sim.world.clearance import Clearance
+from cowalk.sim.world.eyes import Eyes
+from cowalk.sim.world.footprint import furniture, walls
+from cowalk.sim.world.outline import across, rectangle
+from cowalk.sim.world.world import Corridor, Furniture, Obstacle, Pedestrian, World
 
 from .timing import best
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from imageio_ffmpeg import get_ffmpeg_exe
 
-from cowalk.sim.sensor_parameters import PRESETS
+from cowalk.sim.sensor.presets import PRESETS
 
 DOCS = Path(__file__).parent
 ROOT = DOCS.parent

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .loading import load
-    from .runner import make_env, run
+    from .files.loading import load
+    from .running.build import make_env
+    from .running.runner import run
 
 __all__ = ["load", "make_env", "run"]
 
@@ -14,11 +15,11 @@ __all__ = ["load", "make_env", "run"]
 def __getattr__(name: str) -> Any:
     # The command line answers --help at once, because nothing is imported before it is needed.
     if name == "load":
-        from .loading import load
+        from .files.loading import load
 
         return load
     if name in __all__:
-        from . import runner
+        from .running import runner
 
         return getattr(runner, name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import pytest
 
 if TYPE_CHECKING:
-    from .results import RunResult
+    from .trace.result import RunResult
 
 SUFFIX = ".scenario.yaml"
 
@@ -38,7 +38,7 @@ def run_scenario(request: pytest.FixtureRequest) -> RunScenario:
     """
 
     def run_it(source: str | Path, *overrides: str, seed: int | None = None) -> RunResult:
-        from .loading import load
+        from .files.loading import load
 
         beside = request.path.parent / source
         own_seed = [] if seed is None else [f"seed={seed}"]
@@ -48,7 +48,7 @@ def run_scenario(request: pytest.FixtureRequest) -> RunScenario:
 
 
 def _run(scenario: Any) -> RunResult:
-    from .runner import run
+    from .running.runner import run
 
     result = run(scenario)
     if result.summary["end"] == "interrupted":
@@ -70,8 +70,8 @@ class ScenarioFile(pytest.File):
 
     def collect(self) -> Iterator[pytest.Item]:
         """Yield a test for each expectation; one for the whole file if it is broken or has none."""
-        from .documents import parse
-        from .loading import faults, load
+        from .files.documents import parse
+        from .files.loading import faults, load
 
         # A broken file is a failed test, not an error that would keep all others from running.
         if faults(self.path):
@@ -94,7 +94,7 @@ class ScenarioFile(pytest.File):
         Failure
             If the file is broken or the run was aborted.
         """
-        from .loading import faults, load
+        from .files.loading import faults, load
 
         if self._result is None:
             if found := faults(self.path):
@@ -123,7 +123,7 @@ class ScenarioTest(pytest.Item):
 
     def runtest(self) -> None:
         """Run the scenario, if that was not done yet, and look at the verdict."""
-        from .expectations import explain
+        from .expect.verdict import explain
 
         result = self.parent.result()
         for verdict in result.verdicts:

@@ -8,16 +8,20 @@ from copy import deepcopy
 
 import numpy as np
 
-from cowalk.agents.interfaces import Belief, Observation, Situation
-from cowalk.estimation.intent import mean_force
-from cowalk.estimation.observers import ForceReading, Observer, PaperObserver
-from cowalk.estimation.smoothing import MovingAverage, Smoother
-from cowalk.estimation.stubbornness import interaction_value, stubbornness_norm
-from cowalk.sim.motion import Array
+from cowalk.estimation.front_ends.mean import mean_force
+from cowalk.estimation.laws.stubbornness import interaction_value, stubbornness_norm
+from cowalk.estimation.observers.paper import PaperObserver
+from cowalk.estimation.observers.protocol import ForceReading, Observer
+from cowalk.estimation.smoothers.moving_average import MovingAverage
+from cowalk.estimation.smoothers.protocol import Smoother
+from cowalk.sim.basics.motion import Array
+from cowalk.sim.basics.observation import Observation
+from cowalk.sim.basics.situation import Situation
 
-from .planner import PROBLEMS
-from .settings import NegotiationSettings
-from .utility import negotiated
+from ..basics.protocols import Belief
+from .planner.problem import PROBLEMS
+from .planner.settings import NegotiationSettings
+from .planner.utility import negotiated
 
 
 class NegotiatingAutomation(ABC):

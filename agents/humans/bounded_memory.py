@@ -6,11 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cowalk.agents.interfaces import Observation, Situation
+from cowalk.sim.basics.observation import Observation
+from cowalk.sim.basics.situation import Situation
 
-from .demand import DemandingHuman, require, require_positive, require_share
-from .elementwise import FLOATS, Elementwise, Value
-from .intention import Outlook
+from ..basics.elementwise import FLOATS, Elementwise, Value
+from .intention.intention import Outlook
+from .laws.demand import DemandingHuman, require, require_positive, require_share
 
 
 @dataclass(kw_only=True)

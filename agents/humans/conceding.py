@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cowalk.agents.interfaces import Situation
+from cowalk.sim.basics.situation import Situation
 
-from .demand import DemandingHuman, Pair, require_positive, require_share
-from .elementwise import Elementwise, Value
+from ..basics.elementwise import Elementwise, Value
+from .laws.demand import DemandingHuman, Pair, require_positive, require_share
 
 
 @dataclass(kw_only=True)

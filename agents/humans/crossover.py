@@ -7,12 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cowalk.agents.interfaces import Observation, Situation
+from cowalk.sim.basics.observation import Observation
+from cowalk.sim.basics.situation import Situation
 
-from .demand import require, require_positive
-from .elementwise import Value
-from .intention import Outlook
-from .linear import LinearHuman
+from ..basics.elementwise import Value
+from .intention.intention import Outlook
+from .laws.demand import require, require_positive
+from .laws.linear import LinearHuman
 
 
 @dataclass(kw_only=True)

@@ -6,14 +6,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cowalk.agents.interfaces import Observation, Situation
-from cowalk.sim.motion import Array
+from cowalk.sim.basics.motion import Array
+from cowalk.sim.basics.observation import Observation
+from cowalk.sim.basics.situation import Situation
 
-from .demand import Pair, require, require_positive
-from .elementwise import Elementwise, Value, elementwise
-from .intention import Outlook
-from .linear import LinearHuman
-from .lq_game import Gains, best_answer, nash_equilibrium
+from ..basics.elementwise import Elementwise, Value, elementwise
+from .intention.intention import Outlook
+from .laws.demand import Pair, require, require_positive
+from .laws.linear import LinearHuman
+from .laws.lq_game import Gains, best_answer, nash_equilibrium
 
 _QUIET = 0.1
 """Squared error, in upper bounds, below which the observer learns little."""
@@ -31,7 +32,7 @@ class GameHuman(LinearHuman):
     The position errors are the bearing of the aim, and how far the base has fallen behind or
     run ahead. They begin in the Nash equilibrium with a partner of the weights they assume. An
     observer corrects the partner's gain by what the twist did beyond the human's own push, and
-    they answer it (`cowalk.agents.humans.lq_game`).
+    they answer it (`cowalk.agents.humans.laws.lq_game`).
 
     Parameters
     ----------

@@ -7,10 +7,12 @@ from typing import ClassVar
 
 import numpy as np
 
-from cowalk.agents.interfaces import Observation, Situation, Truth
-from cowalk.sim.motion import Array
+from cowalk.sim.basics.motion import Array
+from cowalk.sim.basics.observation import Observation
+from cowalk.sim.basics.situation import Situation
 
-from .demand import Pair, prescribed_truth, require, require_positive
+from ..basics.protocols import Truth
+from .laws.demand import Pair, prescribed_truth, require, require_positive
 
 
 @dataclass(kw_only=True)
@@ -18,7 +20,7 @@ class OpenLoopHuman:
     """Exerts a force that is a step function of time (arXiv 2407.17275, section IV).
 
     Nothing in a prescribed force tells what its author wanted: its truth is that of
-    `cowalk.agents.humans.demand.prescribed_truth`.
+    `cowalk.agents.humans.laws.demand.prescribed_truth`.
 
     Parameters
     ----------

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .demand import DemandingHuman, Pair, require_share
-from .elementwise import Elementwise, Value
+from ..basics.elementwise import Elementwise, Value
+from .laws.demand import DemandingHuman, Pair, require_share
 
 
 @dataclass(kw_only=True)

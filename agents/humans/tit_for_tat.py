@@ -6,11 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cowalk.agents.interfaces import Observation, Situation
-from cowalk.sim.motion import Array
+from cowalk.sim.basics.motion import Array
+from cowalk.sim.basics.observation import Observation
+from cowalk.sim.basics.situation import Situation
 
-from .demand import DemandingHuman, Pair, require_positive, require_share
-from .elementwise import Elementwise, Value, components
+from ..basics.elementwise import Elementwise, Value, components
+from .laws.demand import DemandingHuman, Pair, require_positive, require_share
 
 
 @dataclass(kw_only=True)

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from cowalk.agents.humans.demand import require
-from cowalk.agents.humans.elementwise import elementwise
-from cowalk.agents.interfaces import Observation
-from cowalk.sim.motion import Array
+from cowalk.sim.basics.motion import Array
+from cowalk.sim.basics.observation import Observation
 
+from ..basics.elementwise import elementwise
+from ..humans.laws.demand import require
 from .wrapper import Imperfection
 
 

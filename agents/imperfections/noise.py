@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from cowalk.agents.humans.demand import require
-from cowalk.agents.interfaces import Observation
-from cowalk.sim.motion import Array
+from cowalk.sim.basics.motion import Array
+from cowalk.sim.basics.observation import Observation
 
+from ..humans.laws.demand import require
 from .wrapper import Imperfection
 
 

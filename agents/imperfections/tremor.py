@@ -6,12 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cowalk.agents.humans.demand import require
-from cowalk.agents.humans.elementwise import Value, elementwise
-from cowalk.agents.interfaces import Observation, Situation
-from cowalk.sim.errors import InputError
-from cowalk.sim.motion import Array
+from cowalk.sim.basics.errors import InputError
+from cowalk.sim.basics.motion import Array
+from cowalk.sim.basics.observation import Observation
+from cowalk.sim.basics.situation import Situation
 
+from ..basics.elementwise import Value, elementwise
+from ..humans.laws.demand import require
 from .wrapper import Imperfection
 
 

@@ -8,8 +8,11 @@ from typing import ClassVar
 
 import numpy as np
 
-from cowalk.agents.interfaces import Human, Observation, Situation, Truth
-from cowalk.sim.motion import Array
+from cowalk.sim.basics.motion import Array
+from cowalk.sim.basics.observation import Observation
+from cowalk.sim.basics.situation import Situation
+
+from ..basics.protocols import Human, Truth
 
 
 @dataclass

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from cowalk.agents import HUMANS
-from cowalk.agents.interfaces import Situation
-from cowalk.sim.motion import TwistBounds
-from cowalk.sim.path import Path
+from cowalk.sim.basics.motion import TwistBounds
+from cowalk.sim.basics.path import Path
+from cowalk.sim.basics.situation import Situation
 
 
 @pytest.fixture

@@ -2,7 +2,7 @@ import sys
 
 import pytest
 
-from cowalk.scenarios import cli
+from cowalk.scenarios.cli import main as cli
 
 WALK = """\
 name: walk

@@ -4,9 +4,9 @@ import textwrap
 
 import pytest
 
-import cowalk.scenarios.margins
-import cowalk.scenarios.runner
-import cowalk.sim.unicycle  # noqa: F401  pytester forgets what is imported within it
+import cowalk.scenarios.expect.margin
+import cowalk.scenarios.running.runner
+import cowalk.sim.unicycle.plant  # noqa: F401  pytester forgets what is imported within it
 
 GOOD = """\
 name: good

@@ -2,7 +2,7 @@
 
 import pytest
 
-from cowalk.sim import drive
+from cowalk.sim.robot import drive
 
 
 @pytest.fixture

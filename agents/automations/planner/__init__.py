@@ -1,0 +1,1 @@
+"""What is negotiated: cost, wish, Pareto front, utility."""

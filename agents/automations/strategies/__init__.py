@@ -1,0 +1,1 @@
+"""How much an automation concedes, one file a strategy."""

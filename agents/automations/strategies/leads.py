@@ -1,0 +1,25 @@
+"""The two ends of the scale: an automation that never yields, and one that always does."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from cowalk.sim.basics.motion import Array
+
+from ..negotiation import NegotiatingAutomation
+
+
+class NeverYields(NegotiatingAutomation):
+    """Executes its own wish whatever the human does: U_target = 1."""
+
+    def utility_loss(self, interaction_smoothed: Array) -> Array:
+        """See `NegotiatingAutomation.utility_loss`."""
+        return np.zeros_like(interaction_smoothed)
+
+
+class AlwaysYields(NegotiatingAutomation):
+    """Executes the human's estimated wish: U_target = 0 (the human leads, as in Boink 2014)."""
+
+    def utility_loss(self, interaction_smoothed: Array) -> Array:
+        """See `NegotiatingAutomation.utility_loss`."""
+        return np.ones_like(interaction_smoothed)

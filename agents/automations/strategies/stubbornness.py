@@ -1,0 +1,52 @@
+"""The paper's automation: it concedes as much as the human is stubborn."""
+
+from __future__ import annotations
+
+from cowalk.estimation.laws.stubbornness import utility_loss
+from cowalk.estimation.observers.protocol import Observer
+from cowalk.estimation.smoothers.protocol import Smoother
+from cowalk.sim.basics.motion import Array
+
+from ..negotiation import NegotiatingAutomation
+from ..planner.settings import NegotiationSettings
+
+
+class StubbornnessAutomation(NegotiatingAutomation):
+    """Concedes with the smoothed interaction value, so with the human's stubbornness.
+
+    U_target = 1 - (I - I_min)/(I_max - I_min) (Schneider et al., arXiv 2407.17275). With
+    I_min = -2 and I_max = 2 it settles at U_target = 1 - ||x||.
+
+    Parameters
+    ----------
+    interaction_min, interaction_max : float
+        Smoothed interaction value at which nothing, and everything, is conceded. Inferred:
+        the paper calls them selectable and does not print them.
+    negotiation, smoother, observer
+        See `NegotiatingAutomation`.
+
+    Raises
+    ------
+    ValueError
+        If ``interaction_min`` is not below ``interaction_max``.
+    """
+
+    def __init__(
+        self,
+        interaction_min: float = -2.0,
+        interaction_max: float = 2.0,
+        negotiation: NegotiationSettings | None = None,
+        smoother: Smoother | None = None,
+        observer: Observer | None = None,
+    ) -> None:
+        super().__init__(negotiation, smoother, observer)
+        if not interaction_min < interaction_max:
+            raise ValueError(
+                f"interaction_min = {interaction_min} must lie below "
+                f"interaction_max = {interaction_max}"
+            )
+        self._range = (interaction_min, interaction_max)
+
+    def utility_loss(self, interaction_smoothed: Array) -> Array:
+        """See `NegotiatingAutomation.utility_loss`."""
+        return utility_loss(interaction_smoothed, *self._range)

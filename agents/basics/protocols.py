@@ -1,0 +1,103 @@
+"""The two protocols a user implements, and what passes between agents and environment.
+
+An agent of yours is any class with these methods; name it ``module:Class`` wherever a name
+is accepted. Its constructor's arguments are its parameters in a scenario file.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+
+from cowalk.sim.basics.motion import Array
+from cowalk.sim.basics.observation import Observation
+from cowalk.sim.basics.situation import Bounds, Situation
+
+__all__ = ["Automation", "Belief", "Bounds", "Human", "Observation", "Situation", "Truth"]
+
+
+@dataclass(slots=True)
+class Truth:
+    """What a human model wants: known to the scoring, never to the automation.
+
+    Attributes
+    ----------
+    wish : ndarray, shape (..., 2)
+        Twist that the human would have, m/s and rad/s.
+    stubbornness : ndarray, shape (..., 2)
+        Share of the disagreement that the human insists on, per dimension, in [0, 1].
+    """
+
+    wish: Array
+    stubbornness: Array
+
+
+def _unknown() -> Array:
+    return np.full(2, np.nan)
+
+
+@dataclass(slots=True)
+class Belief:
+    """What an automation made of the interaction; NaN where it has no opinion.
+
+    Attributes
+    ----------
+    stubbornness : ndarray, shape (..., 2)
+        Estimated stubbornness per dimension, as read from this negotiation's force, in [0, 1].
+    stubbornness_smoothed : ndarray, shape (..., 2)
+        The same behind the automation's smoother.
+    human_wish : ndarray, shape (..., 2)
+        Estimated human wish, m/s and rad/s.
+    wish : ndarray, shape (..., 2)
+        The automation's own wish, m/s and rad/s.
+    interaction, interaction_smoothed : float or ndarray, shape (...)
+        Interaction value, in [-2, 2].
+    utility_loss, target_utility : float or ndarray, shape (...)
+        Conceded and demanded utility, in [0, 1].
+    negotiation : int
+        Number of negotiations so far.
+    """
+
+    stubbornness: Array = field(default_factory=_unknown)
+    stubbornness_smoothed: Array = field(default_factory=_unknown)
+    human_wish: Array = field(default_factory=_unknown)
+    wish: Array = field(default_factory=_unknown)
+    interaction: float | Array = np.nan
+    interaction_smoothed: float | Array = np.nan
+    utility_loss: float | Array = np.nan
+    target_utility: float | Array = np.nan
+    negotiation: int = 0
+
+
+class Human(Protocol):
+    """A model of the human in the human seat."""
+
+    def reset(self, rng: np.random.Generator, situation: Situation) -> None:
+        """Start an episode; all randomness comes from ``rng``."""
+        ...
+
+    def act(self, observation: Observation) -> Array:
+        """Return the intended hand force on the base, base axes, N, shape (..., 2)."""
+        ...
+
+    def truth(self) -> Truth:
+        """Return the wish and stubbornness behind the last `act`."""
+        ...
+
+
+class Automation(Protocol):
+    """The decision maker in the automation seat."""
+
+    def reset(self, rng: np.random.Generator, situation: Situation) -> None:
+        """Start an episode; all randomness comes from ``rng``."""
+        ...
+
+    def act(self, observation: Observation) -> Array:
+        """Return the twist to execute, m/s and rad/s, shape (..., 2)."""
+        ...
+
+    def belief(self) -> Belief:
+        """Return what the automation believes after the last `act`."""
+        ...

@@ -1,0 +1,1 @@
+"""Checks for classes of one's own."""

@@ -1,0 +1,169 @@
+"""What the methods of an agent, one act and one report must keep."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from cowalk.sim.basics.motion import Array
+from cowalk.sim.basics.observation import Observation
+
+from ..basics.protocols import Belief, Truth
+from .walk import SITUATION
+
+FORCE_PLAUSIBLE = 100.0
+"""Largest force of one hand that is plausible, N; people communicate with up to 30 N."""
+TWIST_PLAUSIBLE = (3.0, 3.5)
+"""Largest wish that is plausible beside a walking human, m/s and rad/s."""
+
+FORCE_FAINT = 0.05
+"""Largest force that somebody who insists cannot mean, N; the just noticeable one is larger."""
+INSISTS = 0.1
+"""Share of a disagreement insisted on, m/s or rad/s, at which a force is to be felt."""
+_CURE = "return np.array([a, b]), one number for v, one for omega"
+_SCALARS = ("utility_loss", "target_utility", "interaction", "interaction_smoothed")
+
+
+class Broken(Exception):
+    """A fault after which the walk cannot go on."""
+
+
+def one_line(error: BaseException) -> str:
+    """Return kind and text of an error in one line."""
+    return f"{type(error).__name__}: {' '.join(str(error).split())}".rstrip(": ")
+
+
+def call_faults(part: Any, methods: dict[str, tuple[tuple[str, ...], str]]) -> Iterator[str]:
+    """Yield which methods are missing, or cannot be called as the runner calls them.
+
+    Parameters
+    ----------
+    part : object
+    methods : dict of str to ((str, ...), str)
+        Arguments, and how the method is declared.
+    """
+    for name, (arguments, how) in methods.items():
+        method = getattr(part, name, None)
+        if not callable(method):
+            yield f"there is no method {name!r}: add {how}"
+            continue
+        try:
+            signature = inspect.signature(method)
+        except (TypeError, ValueError):  # compiled: nothing is known of it
+            continue
+        try:
+            signature.bind(*arguments)
+        except TypeError:
+            call = f"{name}({', '.join(arguments)})"
+            yield f"{name}{signature} cannot be called as {call}: declare {how}"
+
+
+def access_hint(error: Exception) -> str:
+    """Return how an observation is read, if an error comes from reading it otherwise."""
+    keys = ", ".join(Observation.__annotations__)
+    if isinstance(error, AttributeError) and isinstance(error.obj, dict):
+        key = error.name if error.name in Observation.__annotations__ else "twist"
+        return f'; an observation is a dict: observation["{key}"], of the keys {keys}'
+    return f"; an observation has the keys {keys}" if isinstance(error, KeyError) else ""
+
+
+def require_pair(what: str, value: Any, cure: str) -> None:
+    """Raise `Broken` unless a value is an array of two numbers.
+
+    Parameters
+    ----------
+    what : str
+        What was returned where, for the message.
+    value : object
+    cure : str
+        What to return instead.
+    """
+    if not isinstance(value, np.ndarray):
+        raise Broken(f"{what} {_brief(value)}, no NumPy array: {cure}")
+    if value.shape != (2,):
+        raise Broken(f"{what} an array of shape {value.shape}: {cure}")
+    if value.dtype.kind not in "fiu":
+        raise Broken(f"{what} an array of {value.dtype} instead of numbers: {cure}")
+
+
+def _brief(value: Any) -> str:
+    text = " ".join(repr(value).split())
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def force_faults(force: Array) -> Iterator[str]:
+    """Yield what is wrong with a hand force, N."""
+    if not np.isfinite(force).all():
+        yield f"act returned {force}: every force must be finite; do you divide by a speed of 0?"
+    elif np.abs(force).max() > FORCE_PLAUSIBLE:
+        yield (
+            f"act returned more than {FORCE_PLAUSIBLE:g} N, no hand pushes like that: return N, "
+            "and bound the force"
+        )
+
+
+def insistence(truth: Truth, twist: Array) -> float:
+    """Return how much of its disagreement with a twist a truth insists on, m/s or rad/s."""
+    return float(np.nan_to_num(truth.stubbornness * np.abs(truth.wish - twist)).max())
+
+
+def faint_faults(forces: Array, insisted: float) -> Iterator[str]:
+    """Yield whether the forces of a walk, N, are too faint for what the truth insisted on."""
+    peak = np.abs(forces).max()
+    if 0.0 < peak < FORCE_FAINT and insisted > INSISTS:
+        yield (
+            f"act returned at most {peak:.2g} N, too faint to be felt, while truth() insists on "
+            f"{insisted:.2g} m/s or rad/s: return N; is it in kN?"
+        )
+
+
+def truth_faults(truth: Any) -> Iterator[str]:
+    """Yield what is wrong with a `Truth`."""
+    if not isinstance(truth, Truth):
+        cure = "return Truth(wish=np.array([v, omega]), stubbornness=np.array([s_v, s_omega]))"
+        raise Broken(f"truth returned {_brief(truth)}: {cure}")
+    for name in ("wish", "stubbornness"):
+        value = getattr(truth, name)
+        require_pair(f"truth().{name} is", value, _CURE)
+        if not np.isfinite(value).all():
+            yield f"truth().{name} is not finite: report what the model wants at every step"
+    if ((truth.stubbornness < 0.0) | (truth.stubbornness > 1.0)).any():
+        yield (
+            "truth().stubbornness leaves [0, 1]: it is the share of the disagreement that the "
+            "human insists on; clip what goes beyond"
+        )
+    if (np.abs(truth.wish) > TWIST_PLAUSIBLE).any():
+        yield "truth().wish is faster than anybody walks: return m/s and rad/s"
+
+
+def twist_faults(twist: Array) -> Iterator[str]:
+    """Yield what is wrong with a twist, m/s and rad/s."""
+    lower, upper = (np.asarray(end) for end in (SITUATION.bounds.lower, SITUATION.bounds.upper))
+    if not np.isfinite(twist).all():
+        yield f"act returned {twist}: every twist must be finite"
+    elif (twist < lower - 1e-9).any() or (twist > upper + 1e-9).any():
+        yield "act leaves the situation's bounds: clip to situation.bounds.lower and .upper"
+
+
+def belief_faults(belief: Any) -> Iterator[str]:
+    """Yield what is wrong with a `Belief`."""
+    if not isinstance(belief, Belief):
+        cure = "return Belief(), NaN where there is no opinion"
+        raise Broken(f"belief returned {_brief(belief)}: {cure}")
+    for name in ("stubbornness", "stubbornness_smoothed", "human_wish", "wish"):
+        require_pair(f"belief().{name} is", getattr(belief, name), _CURE)
+    for name in (*_SCALARS, "negotiation"):
+        value = np.asarray(getattr(belief, name))
+        if value.ndim or value.dtype.kind not in "fiu":
+            cure = "return one number" + ("" if name == "negotiation" else ", NaN for no opinion")
+            raise Broken(f"belief().{name} is {_brief(getattr(belief, name))}: {cure}")
+    within = {"stubbornness": (0.0, 1.0), "stubbornness_smoothed": (0.0, 1.0)}
+    within |= {"utility_loss": (0.0, 1.0), "target_utility": (0.0, 1.0)}
+    within |= {"interaction": (-2.0, 2.0), "interaction_smoothed": (-2.0, 2.0)}
+    for name, (low, high) in within.items():
+        value = np.asarray(getattr(belief, name))
+        if ((value < low - 1e-9) | (value > high + 1e-9)).any():
+            yield f"belief().{name} leaves [{low:g}, {high:g}]: clip it, or leave it NaN"

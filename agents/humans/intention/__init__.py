@@ -1,0 +1,1 @@
+"""Where a human wants to go, and how the aim moves."""

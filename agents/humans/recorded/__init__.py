@@ -1,0 +1,1 @@
+"""A human whose force is read from a file."""

@@ -1,0 +1,104 @@
+"""A human whose force somebody measured."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from cowalk.sim.basics.motion import Array
+from cowalk.sim.basics.observation import Observation
+from cowalk.sim.basics.situation import Situation
+
+from ...basics.protocols import Truth
+from ..laws.demand import Pair, prescribed_truth, require, require_positive
+from .recording import Columns, read_recording, resample
+from .units import Units
+
+
+@dataclass(kw_only=True)
+class RecordedHuman:
+    """Exerts the force of a recording, whatever the base does.
+
+    A recording does not tell what the person wanted: its truth is that of
+    `cowalk.agents.humans.laws.demand.prescribed_truth`.
+
+    Parameters
+    ----------
+    file : str
+        CSV, Parquet or NumPy (.npy, .npz) file.
+    columns : Columns
+        Which of its columns hold time and force.
+    units : Units
+    gaps : {"refuse", "hold"}
+        What becomes of a file in which rows are missing: it is refused, or the last force is
+        held until the next row, see `read_recording`.
+    resample : {"mean", "linear", "hold"}
+        How samples become one force a control period, see `resample`.
+    at_end : {"loop", "stop"}
+        Start over, or let go, when the recording ends.
+    start : float
+        Time at which the recording begins to play, s; 0 N before.
+    scale : float
+        Factor on the force.
+    force_max : (float, float)
+        Force forward and sideways that counts as full stubbornness, N.
+    gain : float
+        As in the common definition, 1.
+
+    Raises
+    ------
+    InputError
+        If the recording is not right (see `read_recording`), or a parameter is outside the
+        range stated.
+    """
+
+    closed_loop: ClassVar[bool] = False
+
+    file: str
+    columns: Columns = field(default_factory=Columns)
+    units: Units = field(default_factory=Units)
+    gaps: Literal["refuse", "hold"] = "refuse"
+    resample: Literal["mean", "linear", "hold"] = "mean"
+    at_end: Literal["loop", "stop"] = "loop"
+    start: float = 0.0
+    scale: float = 1.0
+    force_max: Pair = (7.5, 7.5)
+    gain: float = 2.0
+
+    def __post_init__(self) -> None:
+        require_positive(self, "force_max", "gain")
+        require(self, "gaps", self.gaps in ("refuse", "hold"), "must be refuse or hold")
+        require(self, "start", self.start >= 0.0, "must not be negative")
+        require(self, "scale", bool(np.isfinite(self.scale)), "must be finite")
+        self._time, self._force = read_recording(self.file, self.columns, self.units, self.gaps)
+
+    def reset(self, rng: np.random.Generator, situation: Situation) -> None:
+        """See `Human.reset`."""
+        self._upper = np.asarray(situation.bounds.upper, dtype=float)
+        self._period = situation.period
+        played = self.scale * resample(self._time, self._force, self._period, self.resample)
+        # The last row is silence: before the start, and after the end if it does not loop.
+        self._played = np.vstack((played, np.zeros(2)))
+        self._truth = Truth(np.zeros(2), np.zeros(2))
+
+    def act(self, observation: Observation) -> Array:
+        """See `Human.act`."""
+        silence = len(self._played) - 1
+        # Half a period forgives rounding in control times.
+        since = (observation["time"][..., 0] - self.start) / self._period + 0.5
+        step = np.floor(since).astype(int)
+        if self.at_end == "loop":
+            row = np.where(step < 0, silence, step % silence)
+        else:
+            row = np.where((step < 0) | (step >= silence), silence, step)
+        force = self._played[row]
+        self._truth = prescribed_truth(
+            force, observation["twist"], self._upper, self.force_max, self.gain
+        )
+        return np.asarray(force)
+
+    def truth(self) -> Truth:
+        """See `Human.truth`."""
+        return self._truth

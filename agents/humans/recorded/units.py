@@ -1,0 +1,114 @@
+"""Units of a recording's columns: what the scenario says, and what the file says."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from cowalk.sim.basics.errors import InputError
+from cowalk.sim.basics.registry import did_you_mean
+
+from .tables import at
+
+TIME_UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
+"""Known units of time, in s."""
+FORCE_UNITS = {"N": 1.0, "mN": 1e-3, "kN": 1e3, "lbf": 4.4482216152605, "kgf": 9.80665}
+"""Known units of force, in N."""
+
+_BRACKET = re.compile(r"\[([^\[\]]*)\]\s*$|\(([^()]*)\)\s*$|/([^/]+)$")
+"""A unit at the end of a column's name, beyond doubt: ``t [ms]``, ``Fx (kN)``, ``force/N``."""
+_SUFFIX = re.compile(r"[\s_.-]([A-Za-z]+)$")
+"""What may be a unit, if it is known as one: ``fx_mn``."""
+_OTHER = (
+    "Nm Nmm mNm Ncm V mV uV kg g mg lb lbs oz mm cm mps rad deg Hz min Pa kPa bar psi mA counts"
+)
+_WORDS = {unit.lower() for unit in (*TIME_UNITS, *FORCE_UNITS, *_OTHER.split())}
+"""Words that are units, of time, of force, or of what is neither."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Units:
+    """Units of a recording's columns.
+
+    Parameters
+    ----------
+    time : {"s", "ms", "us", "ns"}, optional
+        Unless given, what the file says: a Parquet field's metadata, or the end of the
+        column's name (``t_ms``, ``t [ms]``); s where it says nothing.
+    force : {"N", "mN", "kN", "lbf", "kgf"}, optional
+        Likewise (``fx_mn``, ``Fx [mN]``); N where the file says nothing.
+
+    Raises
+    ------
+    InputError
+        If a unit is not known.
+    """
+
+    time: Literal["s", "ms", "us", "ns"] | None = None
+    force: Literal["N", "mN", "kN", "lbf", "kgf"] | None = None
+
+    def __post_init__(self) -> None:
+        for name, known in (("time", TIME_UNITS), ("force", FORCE_UNITS)):
+            unit = getattr(self, name)
+            if unit is not None and unit not in known:
+                raise InputError(f"units.{name} = {unit!r}: {did_you_mean(unit, list(known))}")
+
+
+def suits(path: Path, quantity: str, name: str, units: Units, stated: dict[str, str]) -> bool:
+    """Return whether a column may hold a quantity, see `unit_of`."""
+    try:
+        unit_of(path, quantity, name, units, stated)
+    except InputError:
+        return False
+    return True
+
+
+def unit_of(path: Path, quantity: str, name: str, units: Units, stated: dict[str, str]) -> str:
+    """Return the unit of a column: what the scenario says, the file, or s and N.
+
+    Parameters
+    ----------
+    path : Path
+        For messages.
+    quantity : {"time", "force"}
+    name : str
+        The column's.
+    units : Units
+        What the scenario says.
+    stated : dict of str to str
+        What the file says of its columns, apart from their names.
+
+    Raises
+    ------
+    InputError
+        If the file says something else than the scenario, or something that is no unit of
+        this quantity.
+    """
+    known = TIME_UNITS if quantity == "time" else FORCE_UNITS
+    wanted: str | None = getattr(units, quantity)
+    found = stated.get(name)
+    if found is None and (end := _BRACKET.search(name) or _SUFFIX.search(name)):
+        word = next(text for text in end.groups() if text is not None).strip()
+        found = {unit.lower(): unit for unit in known}.get(word.lower())
+        if found is None and word.lower() in _WORDS:
+            found = word
+        elif found is None and word and end.re is _BRACKET and wanted is None:
+            raise InputError(
+                f"{at(path)}: column {name!r} is in {word!r}; known: {', '.join(known)}; if that "
+                f"is no unit, say units.{quantity}"
+            )
+    if found is None:
+        return wanted or next(iter(known))
+    if found not in known:
+        raise InputError(
+            f"{at(path)}: column {name!r} is in {found!r}; known: {', '.join(known)}; map another "
+            "column"
+        )
+    if wanted not in (None, found):
+        raise InputError(
+            f"{at(path)}: column {name!r} is in {found!r}, the scenario says {wanted!r}; leave "
+            f"units.{quantity} out, or map another column"
+        )
+    return found

@@ -1,0 +1,1 @@
+"""The paper's equations: wish and stubbornness from force."""

@@ -1,0 +1,1 @@
+"""Observers: from measured force to stubbornness and wish, one file each."""

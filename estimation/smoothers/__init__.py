@@ -1,0 +1,1 @@
+"""Smoothers of a value sampled once a negotiation, one file each."""

@@ -1,0 +1,199 @@
+"""The commands about humans: draw people from a population, show a model, compare them all."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from .output import PASSED, Json, emit_json, emit_table, progress_bar
+
+
+def register(app: typer.Typer, list_models: Callable[[bool], int]) -> None:
+    """Add these commands to the command line; ``list_models`` prints the models' names."""
+    humans = typer.Typer(rich_markup_mode=None, help="Look at human models and populations.")
+
+    @humans.command("list")
+    def list_humans(as_json: Json = False) -> int:
+        """List the human models; cowalk list also has imperfections and populations."""
+        return list_models(as_json)
+
+    humans.command(
+        epilog=(
+            "\b\nExamples:\n"
+            "  cowalk humans sample healthy-adults -n 100\n"
+            "  cowalk humans sample my.population.yaml -n 20 --seed 3 --json"
+        )
+    )(sample)
+    humans.command(
+        epilog=(
+            "\b\nExamples:\n"
+            "  cowalk humans show escalating\n"
+            "  cowalk humans show steady --set human.parameters.level=[0.8,0.8]\n"
+            "  cowalk humans show steady --imperfection reaction-delay --imperfection tremor\n"
+            "  cowalk humans show --imperfection fatigue"
+        )
+    )(show)
+    humans.command(
+        epilog=(
+            "\b\nExamples:\n"
+            "  cowalk humans table\n"
+            "  cowalk humans table puddle -n 10 --plant bullet\n"
+            "  cowalk humans table --write docs/humans.md"
+        )
+    )(table)
+    app.add_typer(humans, name="humans")
+
+
+def agent_faults(address: str) -> list[str]:
+    """Return every fault of a human or an automation given as ``module:Class``.
+
+    Raises
+    ------
+    InputError
+        If it cannot be imported.
+    """
+    from cowalk.agents.checks.conformance import automation_problems, human_problems
+    from cowalk.agents.registry import HUMANS
+
+    part = HUMANS.get(address)
+    problems = automation_problems if hasattr(part, "belief") else human_problems
+    return [f"{address}: {problem}" for problem in problems(part)]
+
+
+def sample(
+    population: Annotated[
+        str, typer.Argument(metavar="POPULATION", help="Name of one that ships, or a YAML file.")
+    ],
+    count: Annotated[int, typer.Option("-n", metavar="PEOPLE", min=1, help="How many.")] = 10,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of the draw.")] = 0,
+    plant: Annotated[
+        str, typer.Option(help="Plant they will walk on: what its body makes is left out.")
+    ] = "unicycle",
+    as_json: Json = False,
+) -> int:
+    """Draw people from a population, each a human section of a scenario."""
+    from ..people.population import load_population
+
+    drawn = load_population(population).draw(count, seed, plant)
+    if as_json:
+        emit_json(
+            {
+                "population": population,
+                "seed": seed,
+                "plant": plant,
+                "humans": [person.model_dump(exclude_defaults=True) for person in drawn],
+            }
+        )
+        return PASSED
+    rows = [
+        (
+            str(number),
+            person.name,
+            _listed(person.parameters),
+            _listed(person.model_dump(exclude_defaults=True).get("intention", {})),
+            ", ".join(item.name for item in person.imperfections),
+        )
+        for number, person in enumerate(drawn, start=1)
+    ]
+    header = ("", "model", "parameters", "intention", "imperfections")
+    emit_table(f"{population}, seed {seed}", header, rows)
+    return PASSED
+
+
+def _listed(values: Any) -> str:
+    """Return a section in one line, numbers to three digits."""
+    if isinstance(values, dict):
+        return ", ".join(f"{key} {_listed(value)}" for key, value in values.items())
+    if isinstance(values, list | tuple):
+        return f"[{', '.join(_listed(value) for value in values)}]"
+    return f"{values:.3g}" if isinstance(values, float) else str(values)
+
+
+def show(
+    name: Annotated[
+        str,
+        typer.Argument(metavar="[NAME]", help="Model, or module:Class; none for --imperfection."),
+    ] = "",
+    imperfection: Annotated[
+        list[str] | None,
+        typer.Option(metavar="NAME", help="Add an imperfection; may be repeated."),
+    ] = None,
+    assign: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="KEY=VALUE", help="As in run: human.parameters.gain=3."),
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="PNG, runs/humans/NAME.png unless given.")
+    ] = None,
+    as_json: Json = False,
+) -> int:
+    """Draw what a human model does, or an imperfection alone on a prescribed push."""
+    from cowalk.sim.basics.errors import InputError
+
+    from ..studies.pictures import show_human, show_imperfections
+
+    wanted = imperfection or []
+    if not name and not wanted:
+        raise InputError("name a human model, an --imperfection, or both; see cowalk list humans")
+    file = out or Path("runs", "humans", "-".join([name, *wanted]).strip("-").replace(":", "."))
+    if out is None or not file.suffix:
+        file = file.with_name(f"{file.name}.png")
+    elif file.suffix.lower() != ".png":
+        raise InputError(f"--out {out}: pictures are PNG; write {file.with_suffix('.png')}")
+    if name:
+        points = show_human(name, wanted, assign or [], file)
+        found: dict[str, Any] = {"fixed points": points}
+    else:
+        found = {"largest change": show_imperfections(wanted, assign or [], file)}
+    if as_json:
+        emit_json({"human": name or None, "imperfections": wanted, "picture": str(file)} | found)
+        return PASSED
+    print(f"picture:  {file}")
+    if name:
+        for dimension, points in found["fixed points"].items():
+            listed = ", ".join(f"{point:.2f}" for point in points) or "none"
+            print(f"concession = stubbornness in {dimension} at: {listed}")
+    return PASSED
+
+
+def table(
+    scenario: Annotated[
+        str, typer.Argument(metavar="SCENARIO", help="Name in the library, or a YAML file.")
+    ] = "puddle",
+    seeds: Annotated[int, typer.Option("-n", metavar="SEEDS", min=2, help="Runs of each.")] = 30,
+    plant: Annotated[str, typer.Option(help="Plant instead of the scenario's.")] = "unicycle",
+    write: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Also put the table between its marks in a document."),
+    ] = None,
+    as_json: Json = False,
+) -> int:
+    """Compare every human with every automation, with 95 % bootstrap intervals."""
+    from ..files.loading import load
+    from ..studies.humans import NOTE, compare_humans, header, marked_document, row, write_table
+
+    loaded = load(scenario, [f"plant={plant}"] if plant else [])
+    if write is not None:
+        marked_document(write)  # before the minutes that the runs take
+    with progress_bar("comparing") as progress:
+        cells = compare_humans(loaded, seeds, progress=progress)
+    if write is not None:
+        write_table(write, cells, loaded.name, plant, seeds)
+    if as_json:
+        emit_json(
+            {
+                "scenario": loaded.name,
+                "plant": loaded.plant.name,
+                "seeds": seeds,
+                "note": NOTE,
+                "cells": [dataclasses.asdict(cell) for cell in cells],
+            }
+        )
+    else:
+        emit_table(f"humans in {loaded.name}", header(), [row(cell) for cell in cells])
+        print(NOTE)
+    return PASSED

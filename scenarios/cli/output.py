@@ -1,0 +1,93 @@
+"""What the command line shows: tables, progress, JSON, and errors of one line."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import Annotated, Any
+
+import typer
+
+PASSED, FAILED, BAD_INPUT = 0, 1, 2
+"""Exit codes: all well, an expectation or verdict failed, bad input or an aborted run."""
+
+Json = Annotated[bool, typer.Option("--json", help="JSON alone on standard output.")]
+"""The option that every command with an answer has."""
+
+LINE_EVERY = 10.0
+"""Seconds between lines about progress where there is no terminal."""
+
+
+def complain(message: str) -> None:
+    """Write one line on standard error."""
+    print(f"cowalk: {' '.join(message.split())}", file=sys.stderr)
+
+
+def emit_json(value: Any) -> None:
+    """Write a value as JSON on standard output; not-finite numbers become null."""
+    from ..export.json_ready import json_ready
+
+    print(json.dumps(json_ready(value), indent=2, allow_nan=False, ensure_ascii=False))
+
+
+def emit_table(title: str, header: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
+    """Write a table on standard output; numbers are set right, to four digits."""
+    from rich.box import SIMPLE_HEAD
+    from rich.console import Console
+    from rich.table import Table
+
+    cells = [list(row) for row in rows]
+    table = Table(
+        title=title, title_justify="left", title_style="bold", box=SIMPLE_HEAD, show_edge=False
+    )
+    for index, name in enumerate(header):
+        numeric = any(isinstance(row[index], float) for row in cells)
+        table.add_column(name, justify="right" if numeric else "left", overflow="fold")
+    for row in cells:
+        table.add_row(*(_text(cell) for cell in row))
+    # Nothing is cut where the output is read by a program.
+    console = Console(markup=False, width=None if sys.stdout.isatty() else 160)
+    console.print(table)
+    console.print()
+
+
+def _text(cell: Any) -> str:
+    if isinstance(cell, bool):
+        return "yes" if cell else "no"
+    if cell is None or (isinstance(cell, float) and math.isnan(cell)):
+        return "-"
+    return f"{cell:.4g}" if isinstance(cell, float) else str(cell)
+
+
+def two_digits(value: float) -> str:
+    """Return a number with two significant digits and no exponent."""
+    return f"{float(f'{value:.2g}'):g}"
+
+
+@contextmanager
+def progress_bar(what: str) -> Iterator[Callable[[int, int], None]]:
+    """Yield a function of (done, total) that shows progress on standard error.
+
+    On a terminal it is a bar; elsewhere a line now and then, so that a log of a short run has none.
+    """
+    if not sys.stderr.isatty():
+        said = time.monotonic()
+
+        def say(done: int, total: int) -> None:
+            nonlocal said
+            if time.monotonic() - said > LINE_EVERY:
+                said = time.monotonic()
+                print(f"cowalk: {what}: {100 * done // total} %", file=sys.stderr, flush=True)
+
+        yield say
+        return
+    from rich.console import Console
+    from rich.progress import Progress
+
+    with Progress(console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(what)
+        yield lambda done, total: bar.update(task, completed=done, total=total)

@@ -1,0 +1,1 @@
+"""Pictures of runs, people and the paper."""

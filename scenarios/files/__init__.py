@@ -1,0 +1,1 @@
+"""Scenario files: found, read, checked with their lines, written back."""

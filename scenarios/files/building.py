@@ -1,0 +1,220 @@
+"""From a named component to an object: its parameters checked against its constructor."""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+from collections.abc import Callable, Collection, Mapping
+from functools import lru_cache
+from typing import Any, TypeVar, get_type_hints
+
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, create_model
+from pydantic.errors import PydanticSchemaGenerationError, PydanticUserError
+
+from cowalk.sim.basics.errors import InputError
+from cowalk.sim.basics.registry import Registry
+
+from .documents import KeyPath, Problem
+from .schema import Component
+from .validation import validate
+
+T = TypeVar("T")
+
+_CONFIG = ConfigDict(extra="forbid", arbitrary_types_allowed=True)
+_PLAIN = (bool, int, float, str, tuple)
+_KEYWORDS = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
+
+
+def build(registry: Registry[T], component: Component, section: str, **shared: Any) -> T:
+    """Return the object that a component names.
+
+    Parameters
+    ----------
+    registry : Registry
+        Where the name is looked up.
+    component : Component
+        Name and parameters.
+    section : str
+        Section of the scenario that holds the component, for messages.
+    **shared
+        Arguments that come from elsewhere in the scenario (``rates``, ``smoother``, ...); the
+        constructor gets those it has a parameter for.
+
+    Raises
+    ------
+    InputError
+        If the name or a parameter is not right; the first fault, in one line.
+    """
+    found = attempt(registry, component, section, **shared)
+    if isinstance(found, Problem):
+        raise InputError(found.message)
+    return found
+
+
+def attempt(
+    registry: Registry[T], component: Component, section: str, **shared: Any
+) -> T | Problem:
+    """Return the object that a component names, or the first problem (see `build`)."""
+    constructor, parameters, problems = _prepare(registry, component, section, shared)
+    if problems or constructor is None:
+        return problems[0]
+    accepted = {name: value for name, value in shared.items() if name in _accepted(constructor)}
+    try:
+        return constructor(**parameters, **accepted)
+    except Exception as error:  # a user's class may raise anything
+        return _constructor_problem(error, component, section)
+
+
+def check_parameters(
+    registry: Registry[Any], component: Component, section: str, shared: Collection[str] = ()
+) -> list[Problem]:
+    """Return every problem of a component's name and parameters, without building it.
+
+    Parameters
+    ----------
+    registry, component, section
+        See `build`.
+    shared : collection of str
+        Names of the arguments that come from elsewhere in the scenario.
+    """
+    return _prepare(registry, component, section, shared)[2]
+
+
+def complete(
+    registry: Registry[Any], component: Component, shared: Collection[str] = ()
+) -> dict[str, Any]:
+    """Return a component's parameters with the defaults of its constructor written out.
+
+    Defaults that a scenario file cannot hold (objects, "none given") are left out.
+
+    Parameters
+    ----------
+    registry, component, shared
+        See `check_parameters`.
+    """
+    given = dict(component.parameters)
+    for name, parameter in _accepted(registry.get(component.name)).items():
+        default = parameter.default
+        if name in shared or isinstance(default, type):
+            continue
+        if isinstance(default, _PLAIN):
+            given.setdefault(name, default)
+        elif dataclasses.is_dataclass(default) and isinstance(given.get(name, {}), Mapping):
+            values = {
+                item.name: getattr(default, item.name) for item in dataclasses.fields(default)
+            }
+            plain = {key: value for key, value in values.items() if isinstance(value, _PLAIN)}
+            given[name] = plain | given.get(name, {})
+    return given
+
+
+def _prepare(
+    registry: Registry[T], component: Component, section: str, shared: Collection[str]
+) -> tuple[Callable[..., T] | None, dict[str, Any], list[Problem]]:
+    """Return the constructor, the validated parameters and every problem of the two."""
+    here = _place(section)
+    try:
+        constructor = registry.get(component.name)
+    except InputError as error:
+        return None, {}, [Problem((*here, "name"), f"{section}.name: {error}")]
+    except Exception as error:  # a user's module may raise anything when imported
+        reason = f"importing it failed with {type(error).__name__}: {error}"
+        message = f"{section}.name = {component.name!r}: {reason}"
+        return None, {}, [Problem((*here, "name"), message)]
+    at: KeyPath = (*here, "parameters")
+    problems = [
+        Problem((*at, name), f"{section}.parameters.{name}: {_elsewhere(name, section)}")
+        for name in component.parameters
+        if name in shared
+    ]
+    given = {name: value for name, value in component.parameters.items() if name not in shared}
+    accepts, names = _parameter_model(constructor, tuple(shared))
+    model, faults = validate(accepts, given, at)
+    if model is None:
+        return constructor, {}, [*problems, *faults]
+    values = {
+        names[field]: getattr(model, field) for field in names if field in model.model_fields_set
+    }
+    return constructor, values | (model.model_extra or {}), problems
+
+
+def _place(section: str) -> KeyPath:
+    return tuple(int(step) if step.isdecimal() else step for step in section.split("."))
+
+
+def _elsewhere(name: str, section: str) -> str:
+    place = name if name == "rates" else f"{section}.{name}"
+    return f"set this at {place}"
+
+
+def _accepted(constructor: Callable[..., Any]) -> dict[str, inspect.Parameter]:
+    parameters = inspect.signature(constructor).parameters
+    return {name: item for name, item in parameters.items() if item.kind in _KEYWORDS}
+
+
+@lru_cache
+def _parameter_model(
+    constructor: Callable[..., Any], shared: tuple[str, ...]
+) -> tuple[type[BaseModel], dict[str, str]]:
+    """Return a model of the constructor's parameters, and which of them each field stands for.
+
+    Fields are numbered, since a parameter may bear a name that a pydantic model cannot use.
+    """
+    hints = _hints(constructor)
+    fields: dict[str, Any] = {}
+    names: dict[str, str] = {}
+    for name, parameter in _accepted(constructor).items():
+        if name in shared:
+            continue
+        required = parameter.default is inspect.Parameter.empty
+        field = f"parameter_{len(fields)}"
+        names[field] = name
+        fields[field] = (
+            _checkable(hints.get(name, Any)),
+            Field(... if required else None, alias=name),
+        )
+    open_ended = any(
+        item.kind is inspect.Parameter.VAR_KEYWORD
+        for item in inspect.signature(constructor).parameters.values()
+    )
+    config = _CONFIG | ConfigDict(extra="allow") if open_ended else _CONFIG
+    return create_model("Parameters", __config__=config, **fields), names
+
+
+def _hints(constructor: Callable[..., Any]) -> dict[str, Any]:
+    """Return the annotations of the parameters, as far as they exist at run time."""
+    if not inspect.isclass(constructor):
+        sources: list[Any] = [constructor]
+    elif dataclasses.is_dataclass(constructor):
+        # Inherited fields are annotated in the words of the module that declares them.
+        sources = [constructor, constructor.__init__]
+    else:
+        sources = [constructor.__init__]
+    hints: dict[str, Any] = {}
+    for source in sources:
+        try:
+            hints = get_type_hints(source, include_extras=True) | hints
+        except (NameError, TypeError, AttributeError):
+            continue  # annotated for the type checker alone; the names still count
+    return hints
+
+
+def _checkable(hint: Any) -> Any:
+    """Return an annotation, or `Any` where pydantic cannot check it."""
+    try:
+        TypeAdapter(list[hint], config=ConfigDict(arbitrary_types_allowed=True))
+    except (PydanticSchemaGenerationError, PydanticUserError):
+        return Any
+    return hint
+
+
+def _constructor_problem(error: Exception, component: Component, section: str) -> Problem:
+    """Return why a constructor refused, at the parameter that its message begins with."""
+    here = _place(section)
+    if not isinstance(error, ValueError):
+        reason = f"it cannot be built: {type(error).__name__}: {error}"
+        return Problem((*here, "name"), f"{section}.name = {component.name!r}: {reason}")
+    steps = str(error).partition(" ")[0].rstrip(":,").split(".")
+    if steps[0] in component.parameters:
+        return Problem((*here, "parameters", *steps), f"{section}.parameters.{error}")
+    return Problem((*here, "parameters"), f"{section}.parameters: {error}")

@@ -1,0 +1,194 @@
+"""Scenario files: found, read, checked once, and written back."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import yaml
+from pydantic import BaseModel
+
+from cowalk.sim.basics.errors import InputError
+from cowalk.sim.basics.registry import did_you_mean
+
+from .diagnosis import check
+from .documents import Document, KeyPath, dotted, knows_exponents, parse
+from .overrides import expand_names, override
+from .schema import SUFFIX, Scenario
+
+
+@dataclass(frozen=True)
+class Fault:
+    """Something wrong in a scenario file.
+
+    Attributes
+    ----------
+    file : Path
+    line : int
+        From 1.
+    key : str
+        Dotted; empty where the file as a whole is meant.
+    message : str
+        Key, value and what would be right, in one line.
+    """
+
+    file: Path
+    line: int
+    key: str
+    message: str
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}: {self.message}"
+
+
+def library() -> dict[str, Path]:
+    """Return the scenarios that ship: file by name."""
+    folder = Path(str(files("cowalk.scenarios.library")))
+    return {file.name.removesuffix(SUFFIX): file for file in sorted(folder.glob(f"*{SUFFIX}"))}
+
+
+def find(source: str | Path) -> Path:
+    """Return the file of a scenario given by its name in the library, or by its path.
+
+    Raises
+    ------
+    InputError
+        If there is none.
+    """
+    known = library()
+    if isinstance(source, str) and source in known:
+        return known[source]
+    path = Path(source)
+    if path.is_file():
+        return path
+    if path.suffix in (".yaml", ".yml") or len(path.parts) > 1:
+        what = "is a folder" if path.is_dir() else "does not exist"
+        raise InputError(f"{source}: this scenario file {what}; give the path of a YAML file")
+    known_names = did_you_mean(str(source), list(known))
+    raise InputError(f"unknown scenario {str(source)!r}; {known_names}, or the path of a YAML file")
+
+
+def load(source: str | Path, overrides: Sequence[str] = ()) -> Scenario:
+    """Return a scenario, everything in it checked.
+
+    Parameters
+    ----------
+    source : str or Path
+        Name in the library, or path of a YAML file.
+    overrides : sequence of str
+        ``dotted.key=VALUE``, the value in YAML, list entries by their index. A component set
+        to a name alone is swapped (see `cowalk.scenarios.files.overrides.override`).
+
+    Raises
+    ------
+    InputError
+        If the file or an override is not right: the first fault, in one line.
+    """
+    file = find(source)
+    document = read_document(file)
+    expand_names(document.data)
+    overridden: dict[KeyPath, str] = {}
+    if isinstance(document.data, dict) and not document.problems:
+        for assignment in overrides:
+            overridden[override(document.data, assignment)] = assignment
+            expand_names(document.data)
+    scenario, problems = check(document)
+    if problems:
+        first = min(problems, key=lambda problem: document.line(problem.path))
+        where = next(
+            (f"--set {text}" for path, text in overridden.items() if _touch(path, first.path)),
+            f"{file}:{document.line(first.path)}",
+        )
+        more = f" (+{len(problems) - 1} more; see cowalk check {file})" if problems[1:] else ""
+        raise InputError(f"{where}: {first.message}{more}")
+    assert scenario is not None
+    return scenario
+
+
+def _touch(one: KeyPath, other: KeyPath) -> bool:
+    shared = min(len(one), len(other))
+    return bool(other) and one[:shared] == other[:shared]
+
+
+def faults(file: str | Path) -> list[Fault]:
+    """Return every fault of a scenario file, in the order of its lines; none if it is right.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read.
+    """
+    document = read_document(Path(file))
+    expand_names(document.data)
+    found = [
+        Fault(Path(file), document.line(problem.path), dotted(problem.path), problem.message)
+        for problem in check(document)[1]
+    ]
+    return sorted(found, key=lambda fault: fault.line)
+
+
+def read_document(file: Path) -> Document:
+    """Return the document that a file holds.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read.
+    """
+    # `module:Class` is looked for beside the file, wherever it is run from.
+    folder = str(file.resolve().parent)
+    if folder not in sys.path:
+        sys.path.append(folder)
+    try:
+        return parse(file.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"{file}: cannot be read ({error.strerror})") from error
+    except UnicodeDecodeError as error:
+        raise InputError(f"{file}: this is not text in UTF-8; is it a YAML file?") from error
+
+
+def to_yaml(scenario: Scenario) -> str:
+    """Return a scenario as YAML that loads as an equal one, every default written out."""
+    text: str = yaml.dump(
+        _plain(scenario), Dumper=_Dumper, sort_keys=False, allow_unicode=True, width=100
+    )
+    return text
+
+
+@knows_exponents
+class _Dumper(yaml.SafeDumper):
+    """Writes a list of plain values on one line, everything else on lines of its own."""
+
+
+def _represent_list(dumper: yaml.SafeDumper, items: list[Any]) -> yaml.Node:
+    flat = not any(isinstance(item, list | dict) for item in items)
+    return dumper.represent_sequence("tag:yaml.org,2002:seq", items, flow_style=flat)
+
+
+_Dumper.add_representer(list, _represent_list)
+
+
+def _plain(value: Any) -> Any:
+    """Return sections as mappings and tuples as lists, without what a section derives.
+
+    No file holds an infinite number: a limit that is not there is left out.
+    """
+    if isinstance(value, BaseModel):
+        return {name: _plain(getattr(value, name)) for name in type(value).model_fields}
+    if dataclasses.is_dataclass(value):
+        return {
+            item.name: _plain(getattr(value, item.name))
+            for item in dataclasses.fields(value)
+            if item.init and getattr(value, item.name) != math.inf
+        }
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    return value

@@ -1,0 +1,1 @@
+"""Populations: people drawn, and how they respond."""

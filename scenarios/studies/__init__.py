@@ -1,0 +1,1 @@
+"""Many runs: the paper, smoothers and humans compared."""

@@ -1,0 +1,284 @@
+"""The two-sided table: every human model with every automation, with bootstrap intervals."""
+
+from __future__ import annotations
+
+import io
+import math
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from joblib import Parallel, delayed
+from scipy.stats import bootstrap
+
+from cowalk.agents.registry import HUMANS
+from cowalk.sim.basics.errors import InputError
+from cowalk.sim.basics.motion import Array
+from cowalk.sim.world.world import World
+
+from ..files.schema import Component, HumanComponent, Scenario
+from ..running.runner import run
+
+AUTOMATIONS_COMPARED = ("never-yields", "always-yields", "stubbornness")
+"""The two ends of the scale, and the paper's automation."""
+BODY = ("reaction-delay", "signal-dependent-noise")
+"""Imperfections of every model where the scenario names none, at their defaults.
+
+Gait ripple is not among them: at +- 3 N it is as large as what the models differ by.
+"""
+SHIFT = (1.0, 0.3)
+"""How far the obstacles are moved at most from seed to seed, along x and y, m."""
+METRICS = {"mean force": "N", "effort": "N s", "effort a metre": "N s/m", "time to agreement": "s"}
+"""What is compared, and its unit; effort also by the metre walked, since runs differ in length."""
+EARLY = ("collision", "grip lost")
+"""Ends of a run that cut it short."""
+NOTE = (
+    "Time to agreement: over the runs that reached it. Runs that ended early are shorter, and so "
+    "is the time over which their effort adds up: compare that by the metre."
+)
+"""What a reader of the table must know."""
+CONFIDENCE = 0.95
+MARK = "humans-table"
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A mean over seeds and its bootstrap interval; NaN where there is nothing to average.
+
+    Attributes
+    ----------
+    mean, low, high : float
+    runs : int
+        Runs in which the metric applies: those that reached agreement, for its time.
+    """
+
+    mean: float
+    low: float
+    high: float
+    runs: int
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One human with one automation.
+
+    Attributes
+    ----------
+    human, automation : str
+    metrics : dict
+        `Estimate` by the name of each of `METRICS`.
+    ended_early : dict
+        Number of runs that were cut short, by what cut them short (`EARLY`).
+    """
+
+    human: str
+    automation: str
+    metrics: dict[str, Estimate]
+    ended_early: dict[str, int]
+
+
+def compare_humans(
+    scenario: Scenario,
+    seeds: int = 30,
+    progress: Callable[[int, int], None] | None = None,
+    jobs: int = -1,
+    humans: Sequence[str] | None = None,
+    automations: Sequence[str] = AUTOMATIONS_COMPARED,
+) -> list[Cell]:
+    """Run every human model with every automation.
+
+    All models keep the scenario's intention and imperfections (`BODY` where it has none) and
+    have their default parameters. From seed to seed the obstacles lie elsewhere, the same for
+    every pair.
+
+    Parameters
+    ----------
+    scenario : Scenario
+    seeds : int
+        Runs a pair, with the scenario's seed and the ones that follow it.
+    progress : callable, optional
+        Called with the runs done and their total.
+    jobs : int
+        Processes at once; -1 is one a core.
+    humans : sequence of str, optional
+        All registered ones whose force answers the base's motion, unless given.
+    automations : sequence of str
+
+    Returns
+    -------
+    list of Cell
+
+    Raises
+    ------
+    InputError
+        If there are not at least two seeds, a human cannot be built from its defaults, or a
+        run was aborted.
+    """
+    if seeds < 2:
+        raise InputError(f"-n {seeds}: at least 2 seeds are needed for an interval")
+    names = humans or [n for n in HUMANS if getattr(HUMANS.get(n), "closed_loop", True)]
+    pairs = [(human, automation) for human in names for automation in automations]
+    tasks = [(*pair, scenario.seed + offset) for pair in pairs for offset in range(seeds)]
+    outcomes = Parallel(n_jobs=jobs, return_as="generator")(
+        delayed(_measure)(scenario, *task) for task in tasks
+    )
+    values: dict[tuple[str, str], list[tuple[float, ...]]] = {pair: [] for pair in pairs}
+    ends: dict[tuple[str, str], list[str]] = {pair: [] for pair in pairs}
+    for done, ((human, automation, _), (found, end)) in enumerate(
+        zip(tasks, outcomes, strict=True), start=1
+    ):
+        values[human, automation].append(found)
+        ends[human, automation].append(end)
+        if progress is not None:
+            progress(done, len(tasks))
+    return [
+        Cell(
+            *pair,
+            dict(zip(METRICS, map(estimate, np.array(values[pair]).T), strict=True)),
+            {end: ends[pair].count(end) for end in EARLY},
+        )
+        for pair in pairs
+    ]
+
+
+def _measure(
+    scenario: Scenario, human: str, automation: str, seed: int
+) -> tuple[tuple[float, ...], str]:
+    """Return the `METRICS` of one run, and how it ended."""
+    section = scenario.human
+    person = HumanComponent(
+        name=human,
+        intention=section.intention,
+        imperfections=section.imperfections or tuple(Component(name=name) for name in BODY),
+    )
+    strategy = scenario.automation
+    if strategy.name != automation:
+        strategy = strategy.model_copy(update={"name": automation, "parameters": {}})
+    result = run(
+        scenario.model_copy(
+            update={
+                "human": person,
+                "automation": strategy,
+                "seed": seed,
+                "world": _shifted(scenario.world, seed),
+                "expect": {},
+            }
+        )
+    )
+    if result.error is not None:
+        raise InputError(f"human {human!r}, automation {automation!r}, seed {seed}: {result.error}")
+    values = {name: found["value"] for name, found in result.summary["metrics"].items()}
+    values = {name: math.nan if value is None else value for name, value in values.items()}
+    way = values["distance walked"]
+    values["effort a metre"] = values["effort"] / way if way > 0.0 else math.nan
+    return tuple(values[name] for name in METRICS), result.summary["end"]
+
+
+def _shifted(world: World, seed: int) -> World:
+    """Return a world with each obstacle moved by a little, drawn from the seed."""
+    rng = np.random.default_rng([seed, len(world.obstacles)])
+    shifts = rng.uniform(-1.0, 1.0, (len(world.obstacles), 2)) * SHIFT
+    obstacles = tuple(
+        replace(obstacle, x=obstacle.x + float(dx), y=obstacle.y + float(dy))
+        for obstacle, (dx, dy) in zip(world.obstacles, shifts, strict=True)
+    )
+    return replace(world, obstacles=obstacles)
+
+
+def estimate(values: Array) -> Estimate:
+    """Return the mean of what is not NaN, and its interval by the bias-corrected bootstrap.
+
+    Parameters
+    ----------
+    values : ndarray, shape (n,)
+    """
+    known = values[np.isfinite(values)]
+    if not known.size:
+        return Estimate(math.nan, math.nan, math.nan, 0)
+    mean = float(known.mean())
+    if known.size < 2 or np.ptp(known) < 1e-12:  # nothing to resample
+        spread = 0.0 if known.size > 1 else math.nan
+        return Estimate(mean, mean - spread, mean + spread, int(known.size))
+    interval = bootstrap(
+        (known,), np.mean, confidence_level=CONFIDENCE, n_resamples=2000, rng=0
+    ).confidence_interval
+    return Estimate(mean, float(interval.low), float(interval.high), int(known.size))
+
+
+def header() -> tuple[str, ...]:
+    """Return the column heads of the table."""
+    heads = (f"{name}, {unit}" for name, unit in METRICS.items())
+    return ("human", "automation", *heads, "agreed", "ended early")
+
+
+def row(cell: Cell) -> tuple[str, ...]:
+    """Return a cell as text: means with their intervals, how many runs agreed, ended early."""
+    texts = []
+    for found in cell.metrics.values():
+        interval = f" [{found.low:.2f}, {found.high:.2f}]" if math.isfinite(found.low) else ""
+        texts.append(f"{found.mean:.2f}{interval}" if found.runs else "-")
+    runs, total = cell.metrics["time to agreement"].runs, cell.metrics["effort"].runs
+    cut = [f"{count} by {end}" for end, count in cell.ended_early.items() if count]
+    early = ", ".join(cut) or "none"
+    return (cell.human, cell.automation, *texts, f"{runs} of {total}", early)
+
+
+def write_table(file: Path, cells: Sequence[Cell], scenario: str, plant: str, seeds: int) -> None:
+    """Put the table between its marks in a Markdown document.
+
+    Parameters
+    ----------
+    file : Path
+        Holds the lines ``<!-- humans-table -->`` and ``<!-- /humans-table -->``.
+    cells, scenario, plant, seeds
+        What is shown, and what made it.
+
+    Raises
+    ------
+    InputError
+        See `marked_document`.
+    """
+    from rich.box import MARKDOWN
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(box=MARKDOWN, show_edge=True)
+    for name in header():
+        table.add_column(name, no_wrap=True)
+    for cell in cells:
+        table.add_row(*row(cell))
+    text = io.StringIO()
+    Console(file=text, width=400, markup=False, color_system=None).print(table)
+    lines = "\n".join(line for line in text.getvalue().splitlines() if line.strip())
+    caption = (
+        f"Scenario `{scenario}` on the {plant} plant, {seeds} seeds; mean and 95 % bootstrap "
+        f"interval. {NOTE}"
+    )
+    document = marked_document(file)
+    filled = _PLACE.sub(lambda found: f"{found[1]}{caption}\n\n{lines}\n{found[2]}", document)
+    file.write_text(filled, encoding="utf-8")
+
+
+_PLACE = re.compile(rf"(<!-- {MARK} -->\n).*?(<!-- /{MARK} -->)", re.DOTALL)
+
+
+def marked_document(file: Path) -> str:
+    """Return the text of a document with a place for the table.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read or has no such marks.
+    """
+    try:
+        document = file.read_text(encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"--write {file}: cannot be read ({error.strerror})") from error
+    if not _PLACE.search(document):
+        raise InputError(
+            f"--write {file}: no place for the table; add the lines <!-- {MARK} --> and "
+            f"<!-- /{MARK} -->"
+        )
+    return document

@@ -1,0 +1,1 @@
+"""What everybody may import: errors, validators, motion, paths, what is observed."""

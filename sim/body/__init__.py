@@ -1,0 +1,1 @@
+"""A person of any size: masses, joints, arm, legs, gait and grip."""

@@ -1,0 +1,187 @@
+"""Base, human, and what is between them, built in an engine world of their own."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..basics.errors import InputError
+from ..basics.frames import Vector
+from ..basics.motion import Array
+from ..body.anthropometry import BodyParameters
+from ..body.grip import GripParameters
+from ..body.human import arm_outlines, eye, human_body, trunk_outline
+from ..body.walker import WalkerParameters
+from ..engine.engine import connect, engine, free_with
+from ..robot.coupling import CouplingParameters, load_outline
+from ..robot.drive import DriveParameters
+from ..robot.overlap import refuse_overlap
+from ..robot.robot import RobotParameters, robot_of, two_hands
+from ..view.look import Look
+from ..world.outline import Bodies
+from .chains import Base, Chain, SlipBase, State
+from .gains import Gains, refuse_unstable
+from .hands import Hands
+from .load import Load
+from .stability import Masses
+from .wheel_base import WheelBase, refuse_wide_track
+
+SETTLING = 0.25
+"""Time in which the floor takes the load's weight, s: within 0.1 % after 0.05 s."""
+SOLVER_ITERATIONS = {"slip": 10, "wheels": 50}
+"""By drive. Grips alone come within 0.01 N of what 200 iterations give, contacts take longer."""
+
+
+@dataclass(frozen=True)
+class PairParameters:
+    """Everything that decides which bodies there are."""
+
+    drive: DriveParameters
+    body: BodyParameters
+    grip: GripParameters
+    coupling: CouplingParameters
+    robot: RobotParameters
+    walker: WalkerParameters = WalkerParameters()
+
+
+class Pair:
+    """The bodies of a plant, and their state.
+
+    Parameters
+    ----------
+    parameters : PairParameters
+    step : float
+        Physics step in s.
+    held : int
+        Physics steps for which the human's forces are held.
+
+    Raises
+    ------
+    InputError
+        If the robot cannot be had, or the human cannot hold it or would stand inside it, or
+        gains are too high.
+    """
+
+    def __init__(self, parameters: PairParameters, step: float, held: int = 1) -> None:
+        drive, coupling, hand = parameters.drive, parameters.coupling, parameters.body.hand
+        if drive.kind == "wheels" and parameters.robot.urdf is not None:
+            raise InputError("drive.kind = 'wheels': only the robot that ships has wheels")
+        robot = robot_of(parameters.robot, hand, coupling.kind)
+        if drive.kind == "wheels":
+            refuse_wide_track(robot.rigid, drive)
+        carried = coupling.kind == "stretcher"
+        self.handle: Vector = robot.handle
+        """Where the force on the base is measured, base axes, m."""
+        handles = robot.handles
+        if carried:
+            end = (-coupling.length, 0.0, robot.handle[2])
+            handles = two_hands(end) if hand == "both" else (end,)
+        self.body = human_body(parameters.body, handles)
+        # What is held rides on the base: the human's place follows from its own.
+        x, y, yaw = self.body.place
+        shift = robot.handle[:2] if carried else (0.0, 0.0)
+        self.place = (x + shift[0], y + shift[1], yaw)
+        """Where the trunk walks, base axes: m, m, rad."""
+        name = parameters.robot.handle
+        refuse_overlap(parameters.body, self.place, robot.solids, robot.handle, name)
+        self.look = Look(robot.urdf, self.body, coupling if carried else None, robot.handle)
+
+        load = coupling.load(robot.handle) if carried else None
+        moved = Masses(robot.rigid, load, self.body, self.place, drive)
+        refuse_unstable(moved, Gains(parameters.walker, parameters.grip), step, held)
+        outlines = {"base": robot.outline, "human": trunk_outline(parameters.body)}
+        if carried:
+            outlines["load"] = load_outline(coupling, robot.handle[2])
+        seats = {"automation": robot.camera, "human": eye(parameters.body)}
+        self.bodies = Bodies(outlines, seats, arm_outlines(self.body, handles))
+
+        # Nothing is refused from here on, so that no client is left behind.
+        self.client = client = connect()
+        self._free = free_with(self, client)
+        engine.setTimeStep(step, client)
+        engine.setPhysicsEngineParameter(
+            numSolverIterations=SOLVER_ITERATIONS[drive.kind],
+            solverResidualThreshold=0.0,  # its default ends the iteration 0.04 N too early
+            useSplitImpulse=0,  # else a joint more than 0.04 rad beyond its limit stays there
+            physicsClientId=client,
+        )
+        stands = drive.kind == "wheels"
+        self._owner = object() if stands else None
+        base = WheelBase if stands else SlipBase
+        self.base: Base = base(client, robot.rigid, drive, step)
+        # Heights settle on the floor's contacts; planar joints would take the weight off them.
+        self.load = Load(coupling, client, self.base, robot.handle, stands) if carried else None
+        # A yielding grip joins no link: a hand of its own would fall, for ever.
+        hands_rise = stands and parameters.grip.kind == "rigid"
+        self.human = Chain(client, self.body.urdf(hands_rise), self.body.joints)
+        thing = self.load.slab if self.load else self.base
+        origin = handles[0] if carried else robot.handle
+        self.hands = Hands(parameters.grip, client, thing, self.human, self.body, handles, origin)
+        self.base_state: State = ()
+        self.human_state: State = ()
+        self.load_state: State = ()
+
+    def put(self, base: State, human: State, load: State) -> None:
+        """Set every body's state: positions, then rates."""
+        n = len(human) // 2
+        self.base.put(base[:3], base[3:])
+        self.human.put(human[:n], human[n:])
+        if self.load:
+            self.load.slab.put(load[:3], load[3:])
+        self.base_state, self.human_state, self.load_state = base, human, load
+
+    def standing_wrench(self, step: float) -> Array:
+        """Return the wrench on the base at rest, nobody pushing: base axes, about the handle, (6,).
+
+        On planar joints nothing has weight, and without a load none hangs on the sensor. On a
+        floor the load stands on its own for `SETTLING`, at the end of which it is measured, and
+        then everything is put back.
+        """
+        if self.load is None or self._owner is None:
+            return np.zeros(6)
+        saved = self.save()
+        samples = []
+        for _ in range(round(SETTLING / step)):
+            state = self.base.read()
+            cos, sin = math.cos(state[2]), math.sin(state[2])
+            self.base.drive(state, cos, sin, (0.0, 0.0, 0.0))
+            engine.stepSimulation(self.client)
+            samples.append(self.load.read(cos, sin))
+        self.restore(saved)
+        return np.asarray(np.mean(samples[len(samples) // 2 :], axis=0))
+
+    def save(self) -> Any:
+        """Return what `restore` takes."""
+        states = self.base_state, self.human_state, self.load_state
+        return states, self.base.save(), self.hands.save(), self._owner
+
+    def restore(self, saved: Any) -> None:
+        """Go on from a saved state.
+
+        Raises
+        ------
+        InputError
+            If it is kept by the engine, for another pair.
+        """
+        states, drive, hands, owner = saved
+        if owner is not self._owner:
+            raise InputError(
+                "restore: with drive.kind = 'wheels' the engine keeps a state, "
+                "so it can be restored only into the environment that saved it"
+            )
+        self.put(*states)
+        self.hands.restore(hands)
+        self.base.restore(drive)
+
+    def velocities(self) -> list[tuple[str, State]]:
+        """Return name and (vx, vy, rate) of every body, m/s and rad/s."""
+        n = len(self.human_state) // 2
+        bodies = [("base", self.base_state[3:]), ("human", self.human_state[n : n + 3])]
+        return [*bodies, ("load", self.load_state[3:])] if self.load else bodies
+
+    def close(self) -> None:
+        """Free the world. May be called twice."""
+        self._free()

@@ -1,0 +1,293 @@
+"""The PyBullet plant: base and human as rigid bodies, the force read from what joins them."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+from weakref import WeakSet
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..basics.errors import SimulationError
+from ..basics.motion import Array
+from ..basics.rates import Rates
+from ..basics.validators import parameters, require_flag
+from ..body.anthropometry import BodyParameters
+from ..body.gait import Gait, GaitParameters
+from ..body.grip import GripParameters
+from ..body.walker import Walker, WalkerParameters
+from ..engine.engine import engine
+from ..plant.protocol import PlantState
+from ..robot.coupling import CouplingParameters
+from ..robot.drive import DriveParameters
+from ..robot.robot import RobotParameters
+from ..sensor.wrench import SensorMount
+from ..view.viewer import Viewer
+from ..world.outline import Bodies
+from ..world.world import World
+from .chains import State
+from .distances import EngineClearance
+from .pair import Pair, PairParameters
+
+MAX_HELD = 3
+"""Physics steps for which the human's joint forces are held at most: muscles need no 240 Hz."""
+MAX_SPEED = 5.0
+"""Speed of a body beyond which the simulation counts as diverged, m/s (inferred)."""
+MAX_RATE = 20.0
+"""Turning rate of a body beyond which the simulation counts as diverged, rad/s (inferred)."""
+NO_WRENCH = (0.0, 0.0, 0.0)
+
+
+class BulletPlant:
+    """A mobile base and a walking human who hold on to each other, in a world of their own.
+
+    The human's trunk, and with the drive "slip" the base too, stand on planar joints (x, y,
+    yaw). Parameters may be given as their dataclass or as a mapping of its fields.
+    Walls and obstacles are not in this world: `cowalk.sim.bullet.distances` judges collisions.
+
+    Parameters
+    ----------
+    rates : Rates
+    drive : DriveParameters
+    body : BodyParameters
+    walker : WalkerParameters
+    gait : GaitParameters
+    grip : GripParameters
+    coupling : CouplingParameters
+    robot : RobotParameters
+    mount : SensorMount
+        Where the force-torque sensor sits: the frame in which it reads.
+    gui : bool
+        Show the run in a window, at no more than real time; `reset` opens it.
+
+    Raises
+    ------
+    InputError
+        If a parameter is not right; from `reset`, if the window cannot be opened.
+    """
+
+    def __init__(
+        self,
+        rates: Rates,
+        drive: DriveParameters = DriveParameters(),
+        body: BodyParameters = BodyParameters(),
+        walker: WalkerParameters = WalkerParameters(),
+        gait: GaitParameters = GaitParameters(),
+        grip: GripParameters = GripParameters(),
+        coupling: CouplingParameters = CouplingParameters(),
+        robot: RobotParameters = RobotParameters(),
+        mount: SensorMount = SensorMount(),
+        gui: bool = False,
+    ) -> None:
+        require_flag("gui", gui)
+        self._rates = rates
+        step = 1.0 / rates.physics
+        walker = parameters("walker", WalkerParameters, walker)
+        gait = parameters("gait", GaitParameters, gait)
+        self._grip = parameters("grip", GripParameters, grip)
+        self._mount = parameters("mount", SensorMount, mount)
+        # Whole numbers of held steps in a control step: a new intent acts at once.
+        most = 1 if self._grip.kind == "compliant" else MAX_HELD
+        self._held = max(n for n in range(1, most + 1) if rates.substeps % n == 0)
+        self._pair = pair = Pair(
+            PairParameters(
+                parameters("drive", DriveParameters, drive),
+                parameters("body", BodyParameters, body),
+                self._grip,
+                parameters("coupling", CouplingParameters, coupling),
+                parameters("robot", RobotParameters, robot),
+                walker,
+            ),
+            step,
+            self._held,
+        )
+        period = step * self._held
+        self._gait = Gait(gait, period)
+        self._walker = Walker(walker, pair.body, pair.place, self._gait, pair.human.mass, period)
+        self._gui = gui
+        self._viewer: Viewer | None = None
+        self._world: World | None = None
+        self._distances: WeakSet[EngineClearance] = WeakSet()  # who drops one frees it
+        self._steps = 0
+
+    def reset(self, world: World, rng: np.random.Generator) -> PlantState:
+        """See `Plant.reset`."""
+        self._world = world
+        self._steps = 0
+        x, y, yaw = world.start
+        cos, sin = math.cos(yaw), math.sin(yaw)
+
+        def beside(place: tuple[float, float, float]) -> State:
+            ahead, aside, turn = place
+            return x + cos * ahead - sin * aside, y + sin * ahead + cos * aside, yaw + turn
+
+        pair = self._pair
+        pair.base.reset()
+        pair.hands.reset()
+        self._walker.reset()
+        self._gait.reset(rng)
+        human = (*beside(pair.place), *pair.body.posture)
+        load: State = (*beside((*pair.handle[:2], 0.0)), 0.0, 0.0, 0.0) if pair.load else ()
+        pair.put((x, y, yaw, 0.0, 0.0, 0.0), human + (0.0,) * len(human), load)
+        self._stopped = False
+        self._watch()
+        standing = pair.standing_wrench(1.0 / self._rates.physics)
+        return self._state(np.tile(standing, (self._rates.samples, 1)))
+
+    def save(self) -> Any:
+        """See `Plant.save`."""
+        return self._pair.save(), self._walker.save(), self._stopped, self._world, self._steps
+
+    def restore(self, saved: Any) -> PlantState:
+        """See `Plant.restore`: into this plant, or with the drive "slip" into one built alike."""
+        pair, walker, self._stopped, self._world, self._steps = saved
+        self._pair.restore(pair)
+        self._walker.restore(walker)
+        return self._state(np.zeros((self._rates.samples, 6)))
+
+    def step(
+        self, twist_command: tuple[float, float], hand_force: tuple[float, float]
+    ) -> PlantState:
+        """See `Plant.step`."""
+        push = (float(hand_force[0]), float(hand_force[1]))
+        speed, rate = float(twist_command[0]), float(twist_command[1])
+        for name, given in (("twist_command", (speed, rate)), ("hand_force", push)):
+            if not (math.isfinite(given[0]) and math.isfinite(given[1])):
+                raise SimulationError(f"{name} = {given} is not finite")
+        self._steps += 1
+        if self._stopped:
+            speed = rate = 0.0
+        pair = self._pair
+        hands, load = pair.hands, pair.load
+        pair.base.command(speed, rate)
+        if not hands.held:
+            push = (0.0, 0.0)  # there is nothing to push
+
+        # This loop is the cost of a run: names are bound here.
+        client, advance = pair.client, engine.stepSimulation
+        drive, read = pair.base.drive, pair.base.read
+        apply, read_human = pair.human.apply, pair.human.read
+        forces, acts = self._walker.forces, hands.acts
+        measure = load.read if load else hands.read
+        check = self._grip.release_force is not None
+        rates, held = self._rates, self._held
+        sampled, substep = rates.physics // rates.sensor, 0
+        samples: list[float] = []
+        base, human = pair.base_state, pair.human_state
+        cos, sin = math.cos(base[2]), math.sin(base[2])
+        extra = on_load = NO_WRENCH
+        for _ in range(rates.substeps // held):
+            human_forces = forces(base, human, cos, sin, push)
+            if acts:
+                if load:
+                    on_load = hands.act(load.slab.read(), human, human_forces)
+                else:
+                    extra = hands.act(base, human, human_forces)
+            for _ in range(held):
+                drive(base, cos, sin, extra)
+                apply(human_forces)
+                if load and acts:
+                    load.slab.apply(on_load)
+                advance(client)
+                base = read()
+                cos, sin = math.cos(base[2]), math.sin(base[2])
+                substep += 1
+                if substep % sampled == 0:
+                    samples += measure(cos, sin)
+                if check and (load or substep % sampled):
+                    hands.read(cos, sin)  # which lets go
+            human = read_human()
+        pair.base_state, pair.human_state = base, human
+        if load:
+            pair.load_state = load.slab.read()
+        if not hands.held and self._grip.on_loss == "stop":
+            self._stopped = True
+        self._watch()
+        return self._state(np.array(samples).reshape(-1, 6))  # twice as fast as from rows
+
+    def _state(self, wrench: Array) -> PlantState:
+        pair = self._pair
+        for name, (vx, vy, rate) in pair.velocities():
+            # Written so that a NaN fails it.
+            if not (vx * vx + vy * vy < MAX_SPEED**2 and abs(rate) < MAX_RATE):
+                raise SimulationError(
+                    f"the {name} moves at ({vx:.3g}, {vy:.3g}) m/s and {rate:.3g} rad/s: "
+                    f"diverged (beyond {MAX_SPEED} m/s, {MAX_RATE} rad/s); "
+                    "see what was commanded, and the gains of walker, grip and drive"
+                )
+        x, y, yaw, vx, vy, rate = pair.base_state
+        human = pair.human_state
+        load = pair.load_state
+        lost = not pair.hands.held
+        return PlantState(
+            pose=(x, y, yaw),
+            twist=(math.cos(yaw) * vx + math.sin(yaw) * vy, rate),
+            human_pose=(human[0], human[1], human[2]),
+            wrench_on_base=wrench,
+            mount=self._mount,
+            grip_held=not lost,
+            over=lost and self._grip.on_loss == "end",
+            time=self._steps * self._rates.period,
+            load_pose=(load[0], load[1], load[2]) if load else None,
+        )
+
+    def distances(self, world: World) -> EngineClearance:
+        """See `Plant.distances`: by the engine."""
+        distances = EngineClearance(world, self.bodies.parts)
+        self._distances.add(distances)
+        return distances
+
+    def bare_step(self) -> None:
+        """Step the engine alone, nothing driven or read: what a benchmark compares with."""
+        engine.stepSimulation(self._pair.client)
+
+    @property
+    def steers_from_behind(self) -> bool:
+        """See `Plant.steers_from_behind`: the stretcher is held at its tail."""
+        return self._pair.load is not None
+
+    @property
+    def bodies(self) -> Bodies:
+        """See `Plant.bodies`: as robot, human and load are built."""
+        return self._pair.bodies
+
+    @property
+    def handle(self) -> tuple[float, float, float]:
+        """Where the handle is, base axes, m."""
+        return self._pair.look.clamp
+
+    def viewer(self) -> Viewer:
+        """Return what shows this plant, posed as it is now."""
+        return self._view()
+
+    def _view(self) -> Viewer:
+        assert self._world is not None, "reset before render"
+        if self._viewer is None or self._viewer.world != self._world:
+            if self._viewer is not None:
+                self._viewer.close()
+            self._viewer = Viewer(self._world, self._pair.look, self._gui)
+        pair = self._pair
+        x, y, yaw, vx, vy, _ = pair.base_state
+        joints = pair.human_state[: len(pair.human_state) // 2]
+        speed = math.cos(yaw) * vx + math.sin(yaw) * vy
+        phase = self._gait.phase if self._gait.enabled else None
+        now = self._steps * self._rates.period
+        self._viewer.show((x, y, yaw), joints, pair.load_state[:3], phase, speed, now)
+        return self._viewer
+
+    def _watch(self) -> None:
+        if self._gui:
+            self._view().wait(self._rates.period)
+
+    def render(self, width: int, height: int) -> NDArray[np.uint8]:
+        """See `Plant.render`: a chase camera, rendered in software."""
+        return self._view().picture(width, height)
+
+    def close(self) -> None:
+        """See `Plant.close`."""
+        if self._viewer is not None:
+            self._viewer.close()
+        for distances in tuple(self._distances):
+            distances.close()
+        self._pair.close()

@@ -1,0 +1,1 @@
+"""The PettingZoo environment: what it is made with, actions, perception, reward, states."""

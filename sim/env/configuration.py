@@ -1,0 +1,80 @@
+"""What an environment is made with, judged before anything is built."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ..basics.errors import InputError
+from ..basics.motion import TwistBounds
+from ..basics.rates import Rates
+from ..basics.validators import Range, require_ranges, shown
+from ..sensor.parameters import SensorParameters
+from ..world.world import World
+
+RANGES: dict[str, Range] = {
+    "pace": (0.01, 5.0, "m/s"),
+    "duration": (0.01, 86400.0, "s"),
+    "force_limit": (0.1, 1000.0, "N"),
+}
+"""What two who walk together can have, for a day at most (inferred)."""
+
+_KINDS: dict[str, tuple[type, str]] = {
+    "world": (World, "a World"),
+    "plant": (str, "the name of a plant, or module:Class,"),
+    "plant_parameters": (Mapping, "a mapping of the plant's parameters"),
+    "rates": (Rates, "Rates"),
+    "sensor": (SensorParameters, "SensorParameters, or the name of a preset,"),
+    "bounds": (TwistBounds, "TwistBounds"),
+}
+
+
+@dataclass(frozen=True)
+class Arguments:
+    """What `cowalk.sim.env.env.CowalkEnv` is made with; its docstring says what they are.
+
+    Raises
+    ------
+    InputError
+        If one is of the wrong kind or outside of `RANGES`, or the pace above the bounds.
+    """
+
+    world: World
+    plant: str
+    plant_parameters: Mapping[str, Any]
+    rates: Rates
+    sensor: SensorParameters
+    bounds: TwistBounds
+    pace: float
+    duration: float
+    force_limit: float
+
+    def __post_init__(self) -> None:
+        for name, (kind, words) in _KINDS.items():
+            if not isinstance(getattr(self, name), kind):
+                raise InputError(f"{name} = {shown(getattr(self, name))}: {words} is expected")
+        require_ranges(self, RANGES)
+        # A copy: what is done to theirs later changes nothing here.
+        object.__setattr__(self, "plant_parameters", dict(self.plant_parameters))
+        require_reachable(self.pace, self.bounds)
+
+    @property
+    def steps(self) -> int:
+        """Control steps of an episode that nothing ends."""
+        return max(1, round(self.duration * self.rates.control))
+
+
+def require_reachable(pace: float, bounds: TwistBounds) -> None:
+    """Refuse a usual walking speed (m/s) that no action reaches.
+
+    Raises
+    ------
+    InputError
+        With both speeds.
+    """
+    if pace > bounds.upper[0]:
+        raise InputError(
+            f"pace = {pace:g} m/s: must not be above the upper bound of v, "
+            f"{bounds.upper[0]:g} m/s (bounds.upper); give a pace of that or less, or raise it"
+        )

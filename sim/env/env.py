@@ -1,0 +1,337 @@
+"""The PettingZoo parallel environment: a human seat and an automation seat share a handle."""
+
+from __future__ import annotations
+
+import copy
+from typing import Any, ClassVar
+
+import numpy as np
+from gymnasium.spaces import Box, Dict
+from pettingzoo import ParallelEnv
+
+from ..basics.errors import InputError, SimulationError
+from ..basics.motion import Array, TwistBounds
+from ..basics.observation import Observation
+from ..basics.path import Path
+from ..basics.rates import Rates
+from ..basics.seats import SEATS
+from ..plant.protocol import Plant, PlantState
+from ..plant.registry import build_plant
+from ..sensor.parameters import SensorParameters
+from ..sensor.presets import sensor_preset
+from ..sensor.sensor import ForceSensor, Reading
+from ..world.contact import blocked_start
+from ..world.world import Corridor, World
+from .actions import Actions
+from .configuration import Arguments
+from .perception import Perception, observation_space
+from .reward import Reward
+from .snapshot import Saved, checked
+
+STRAIGHT_CORRIDOR = World(path=Path(((0.0, 0.0), (20.0, 0.0))), corridor=Corridor(width=3.0))
+"""The world of `parallel_env` without arguments: nothing in it, nothing to negotiate."""
+
+_ENDS = ("goal", "collision", "grip_lost")
+_SAVED = ("agents", "_step_count", "_sensor", "_generator", "_state", "_reading", "_info")
+"""What of an environment changes within an episode, beside its plant."""
+
+
+CLOSED = "this environment is closed: make a new one"
+
+
+class CowalkEnv(ParallelEnv[str, Observation, Array]):
+    """Human and automation walk one base; each is an agent, both act once a control step.
+
+    The human's action is the intended hand force on the base ``[fx, fy]``, base axes, N; the
+    automation's is the twist to execute ``[v, omega]``, m/s and rad/s. Actions beyond the
+    action space are clipped to it. Both seats perceive the same dict of named boxes: ``twist``
+    (2,), ``force`` (samples, 2), ``wrench`` (samples, 6), ``force_valid`` (samples,), ``pose``
+    (3,) relative to the path, ``pose_world`` (3,), ``obstacles`` (8, 6) and ``time`` (1,), as
+    `cowalk.sim.basics.observation.Observation` explains.
+    Spaces do not depend on who sits in the seats.
+
+    Rewards are those of `cowalk.sim.env.reward.Reward`. An episode terminates when the base
+    reaches the end of the path (``goal``), a body touches something solid (``collision``) or
+    the plant, having lost its grip, asks for it (``grip_lost``). It is truncated after
+    ``duration``. Infos hold what a scoring needs and no seat may see.
+
+    Parameters
+    ----------
+    world : World
+    plant : str
+        Registered plant or ``module:Class``.
+    plant_parameters : dict, optional
+        Further arguments of the plant's constructor.
+    rates : Rates
+    sensor : SensorParameters or str
+        Or the name of a preset.
+    bounds : TwistBounds
+        Bounds of the automation's action.
+    pace : float
+        Usual walking speed, m/s; the rewards refer to it.
+    duration : float
+        Time after which an episode is truncated, s.
+    force_limit : float
+        Bound of the human's action, N. People communicate with up to 30 N
+        (s41598-024-53991-4).
+    render_mode : {None, "rgb_array", "human"}
+
+    Raises
+    ------
+    InputError
+        If the plant, one of its parameters or the sensor is unknown, or a value makes no sense.
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {
+        "name": "cowalk_v0",
+        "render_modes": ["human", "rgb_array"],
+        "is_parallelizable": True,
+        "render_fps": 20,
+    }
+
+    def __init__(
+        self,
+        world: World = STRAIGHT_CORRIDOR,
+        *,
+        plant: str = "bullet",
+        plant_parameters: dict[str, Any] | None = None,
+        rates: Rates = Rates(),
+        sensor: SensorParameters | str = SensorParameters(),
+        bounds: TwistBounds = TwistBounds(),
+        pace: float = 0.8,
+        duration: float = 30.0,
+        force_limit: float = 30.0,
+        render_mode: str | None = None,
+    ) -> None:
+        sensor = sensor_preset(sensor) if isinstance(sensor, str) else sensor
+        own = {} if plant_parameters is None else plant_parameters
+        self._arguments = given = Arguments(
+            world, plant, own, rates, sensor, bounds, pace, duration, force_limit
+        )
+        self.world, self.rates, self.bounds, self.pace = world, rates, bounds, pace
+        self.steps_per_episode = given.steps
+        if render_mode not in (None, *self.metadata["render_modes"]):
+            raise InputError(f"render_mode = {render_mode!r}; known: None, human, rgb_array")
+        self.render_mode = render_mode
+        watched = render_mode == "human"
+        self._plant, shown = build_plant(plant, rates, own, watched)
+        self._window_needed = watched and not shown
+        self.possible_agents = list(SEATS)
+        self.agents: list[str] = []
+        self._actions = Actions(bounds, force_limit)
+        self.action_spaces = self._actions.spaces
+        self.observation_spaces = dict.fromkeys(SEATS, observation_space(rates.samples))
+        self._distances = self._plant.distances(world)
+        self._reward = Reward(pace, rates.period)
+        self._perceive = Perception(world, self._plant.bodies, rates.samples)
+        self._sensor = ForceSensor(sensor, rates.sensor)
+        self._generator = np.random.default_rng()
+        self._step_count = 0
+        self._started = self._closed = False
+        self.applied = (0.0, 0.0), (0.0, 0.0)
+        """Force (N) and twist (m/s, rad/s) of the last step, clipped to the action spaces."""
+
+    def observation_space(self, agent: str) -> Dict:
+        """Return the observation space of a seat: the same for both."""
+        return self.observation_spaces[agent]
+
+    def action_space(self, agent: str) -> Box:
+        """Return the action space of a seat."""
+        return self.action_spaces[agent]
+
+    @property
+    def plant(self) -> Plant:
+        """The plant: truth, for those who watch, not for the seats."""
+        return self._plant
+
+    @property
+    def plant_state(self) -> PlantState:
+        """State of the plant after the last step or reset: truth, not for the seats."""
+        self._require("plant_state")
+        return self._state
+
+    def reset(
+        self, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[dict[str, Observation], dict[str, dict[str, Any]]]:
+        """Start an episode.
+
+        Parameters
+        ----------
+        seed : int, optional
+            Seed of all randomness of the environment; without one it goes on from the last.
+        options : dict, optional
+            Not used.
+
+        Raises
+        ------
+        InputError
+            If a body starts in touch with something solid, or what hangs on the sensor at rest
+            is beyond its range.
+        SimulationError
+            If the environment is closed.
+        """
+        if self._closed:
+            raise SimulationError(CLOSED)
+        if seed is not None:
+            self._generator = np.random.default_rng(seed)
+        plant_rng, sensor_rng = self._generator.spawn(2)
+        self.agents = list(SEATS)
+        self._step_count = 0
+        self._started = True
+        state = self._state = self._plant.reset(self.world, plant_rng)
+        self._sensor.reset(sensor_rng, state.wrench_on_base[-1], state.mount)
+        self._reading = self._sensor.measure(state.wrench_on_base, state.mount)
+        clearance, touching = self._distances(self._time, *state.poses)
+        if touching:
+            plant = self._plant
+            why = blocked_start(self.world, plant.bodies, state.poses, plant.distances)
+            self.agents, self._started = [], False
+            raise InputError(why)
+        self._info = {"clearance": clearance} | dict.fromkeys(_ENDS, False)
+        return self._observations(), {seat: dict(self._info) for seat in SEATS}
+
+    def step(
+        self, actions: dict[str, Array]
+    ) -> tuple[
+        dict[str, Observation],
+        dict[str, float],
+        dict[str, bool],
+        dict[str, bool],
+        dict[str, dict[str, Any]],
+    ]:
+        """Advance one control period.
+
+        Parameters
+        ----------
+        actions : dict of ndarray, shape (2,)
+            ``"human"``: intended hand force, N; ``"automation"``: twist, m/s and rad/s.
+
+        Raises
+        ------
+        SimulationError
+            If an action is missing or not finite, no episode is under way, or the plant cannot
+            go on.
+        """
+        if not self.agents:
+            what = "no episode is under way: call reset before step"
+            raise SimulationError(CLOSED if self._closed else what)
+        force, twist = self.applied = self._actions.of_both(actions, self._time)
+        state = self._state = self._plant.step(twist, force)
+        self._step_count += 1
+        self._reading = self._sensor.measure(state.wrench_on_base, state.mount)
+        clearance, collision = self._distances(self._time, *state.poses)
+        observations = self._observations()
+        goal = self._relative[0] >= self.world.path.length
+        ends = zip(_ENDS, (goal, collision, not state.grip_held), strict=True)
+        self._info = {"clearance": clearance} | dict(ends)
+        rewards = self._reward(state, self._relative, clearance, collision, goal)
+        over = goal or collision or state.over
+        late = not over and self._step_count >= self.steps_per_episode
+        if over or late:
+            self.agents = []
+        if self._window_needed:
+            self.render()
+        return (
+            observations,
+            rewards,
+            dict.fromkeys(SEATS, over),
+            dict.fromkeys(SEATS, late),
+            {seat: dict(self._info) for seat in SEATS},
+        )
+
+    def save(self) -> Saved:
+        """Return the whole state within an episode, for `restore`: opaque, and never changed.
+
+        Raises
+        ------
+        SimulationError
+            If there was no `reset` yet, or the environment is closed.
+        """
+        self._require("save", opened=True)
+        # Copied as one, so that what its parts share stays shared.
+        own = copy.deepcopy({name: vars(self)[name] for name in _SAVED})
+        return Saved(self._arguments, self._plant.save(), own)
+
+    def restore(self, saved: Saved) -> dict[str, Observation]:
+        """Go on from a saved state, bit for bit; return what is seen there.
+
+        It may come from another environment that was made with the same arguments, ``render_mode``
+        aside; not with the drive "wheels", where the engine keeps it.
+
+        Raises
+        ------
+        InputError
+            If it is the state of an environment that was made otherwise.
+        SimulationError
+            If this environment is closed.
+        """
+        if self._closed:
+            raise SimulationError(CLOSED)
+        saved = checked(saved, self._arguments)
+        self._plant.restore(saved.plant)
+        self.__dict__.update(copy.deepcopy(dict(saved.own)))
+        self._started = True
+        return self._observations()
+
+    def _require(self, what: str, opened: bool = False) -> None:
+        """Refuse what needs an episode, under way or over, and perhaps an open environment."""
+        if self._closed and opened:
+            raise SimulationError(CLOSED)
+        if not self._started:
+            raise SimulationError(f"no episode has begun: call reset before {what}")
+
+    @property
+    def measured_force(self) -> Array:
+        """Planar force that the sensor read in the last step, N, base axes, shape (samples, 2)."""
+        self._require("measured_force")
+        return self._reading.force
+
+    @property
+    def sensor_reading(self) -> Reading:
+        """All that it read, in its own axes too, with flags for what was lost or out of range."""
+        self._require("sensor_reading")
+        return self._reading
+
+    def render(self) -> np.ndarray | None:
+        """Return a picture, uint8, shape (480, 640, 3), or show it in mode ``"human"``.
+
+        Raises
+        ------
+        SimulationError
+            If there was no `reset` yet, or the environment is closed.
+        """
+        self._require("render", opened=True)
+        if self.render_mode == "rgb_array":
+            return self._plant.render(640, 480)
+        if self._window_needed:
+            from ..view.window import show
+
+            show(self._plant.render(640, 480))
+        return None
+
+    def close(self) -> None:
+        """Free the plant. May be called twice."""
+        self._closed, self.agents = True, []
+        self._plant.close()
+
+    @property
+    def _time(self) -> float:
+        """Since reset, s."""
+        return self._step_count / self.rates.control
+
+    def _observations(self) -> dict[str, Observation]:
+        state = self._state
+        self._relative = self.world.path.relative(*state.pose)
+        return self._perceive(state, self._reading, self._relative, self._time)
+
+
+def parallel_env(world: World = STRAIGHT_CORRIDOR, **arguments: Any) -> CowalkEnv:
+    """Return a `CowalkEnv`; without arguments, a straight corridor, sensor noise off.
+
+    Parameters
+    ----------
+    world : World
+    **arguments
+        See `CowalkEnv`.
+    """
+    return CowalkEnv(world, **arguments)

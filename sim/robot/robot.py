@@ -1,0 +1,170 @@
+"""The robot that is held: the one that ships, or a user's URDF. Where its handles are. Pure."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from importlib.resources import files
+from pathlib import Path
+from xml.etree import ElementTree
+
+from ..basics.errors import InputError
+from ..basics.frames import Vector
+from ..basics.registry import did_you_mean
+from ..basics.validators import shown
+from ..urdf.read import Rigid, lump, mirrored, read_robot
+from ..urdf.shapes import Solid, robot_outline, robot_solids
+from ..world.outline import Outline, disc
+from .shipped import BASE_RADIUS, CAMERA
+
+HANDLES_APART = 0.44
+"""Distance of the two hands on one handle bar, m (inferred: shoulder breadth)."""
+DRAWN = (".obj", ".stl", ".dae")
+"""Mesh files that the engine draws."""
+
+
+@dataclass(frozen=True)
+class RobotParameters:
+    """Which robot.
+
+    Parameters
+    ----------
+    urdf : str, optional
+        Path of a URDF; its root link moves on the floor plane, x forward and z up, its own
+        joints are locked at zero. None is the robot that ships.
+    handle : str
+        Name of the link at whose origin it is held.
+    camera : str
+        Name of the link at whose origin it sees. A robot without a link "camera" sees from the
+        front of its outline, as high up as its shapes reach.
+
+    Raises
+    ------
+    InputError
+        If one is no text. What is not in the file is refused by `robot_of`.
+    """
+
+    urdf: str | None = None
+    handle: str = "handle"
+    camera: str = "camera"
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.urdf, str | os.PathLike | None):
+            raise InputError(f"urdf = {shown(self.urdf)}: the path of a URDF file is expected")
+        for name in ("handle", "camera"):
+            if not isinstance(value := getattr(self, name), str):
+                raise InputError(f"{name} = {shown(value)}: the name of a link is expected")
+
+
+@dataclass(frozen=True)
+class Robot:
+    """A robot as the physics and the pictures need it.
+
+    Attributes
+    ----------
+    rigid : Rigid
+    handle : (x, y, z)
+        Where it is held, base axes, m.
+    handles : tuple of (x, y, z)
+        Where each hand holds, in order left, right.
+    urdf : str
+        Its pictures, mesh paths made absolute.
+    outline : Outline
+        Around its collision shapes, or if it has none around what is visible of it.
+    camera : (x, y, z)
+        Where it sees from, base axes, m.
+    solids : tuple of Solid
+        The shapes within the outline, one by one.
+    """
+
+    rigid: Rigid
+    handle: Vector
+    handles: tuple[Vector, ...]
+    urdf: str
+    outline: Outline
+    camera: Vector
+    solids: tuple[Solid, ...]
+
+
+def robot_of(parameters: RobotParameters, hand: str, coupling: str) -> Robot:
+    """Return the robot for a holding hand and a coupling.
+
+    Raises
+    ------
+    InputError
+        If the file or a named link is missing, a mesh cannot be read, or the robot has no mass.
+    """
+    if parameters.urdf is None:
+        rear = hand == "both" or coupling == "stretcher"
+        name = "base_rear.urdf" if rear else "base.urdf"
+        root = ElementTree.fromstring(
+            files("cowalk.sim.robot.models").joinpath(name).read_text("utf-8")
+        )
+        if hand == "right":
+            root = mirrored(root)
+    else:
+        root = read_robot(Path(parameters.urdf))
+        _absolute_meshes(root, Path(parameters.urdf).resolve().parent)
+    rigid = lump(root)
+    handle = _place_of(rigid, "handle", parameters.handle)
+    handles = two_hands(handle) if hand == "both" else (handle,)
+    # A robot without any shape is taken for one as large as that which ships.
+    solids = robot_solids(root)
+    outline, top = (disc(BASE_RADIUS), CAMERA[2]) if not solids else robot_outline(solids)
+    camera = (outline.box[1], 0.0, top)
+    if parameters.camera != RobotParameters.camera or parameters.camera in rigid.places:
+        camera = _place_of(rigid, "camera", parameters.camera)
+    return Robot(rigid, handle, handles, _locked(root), outline, camera, solids)
+
+
+def _place_of(rigid: Rigid, parameter: str, name: str) -> Vector:
+    if name not in rigid.places:
+        hint = did_you_mean(name, sorted(rigid.places))
+        raise InputError(f"robot.{parameter}: no link {name!r}; {hint}")
+    return rigid.places[name]
+
+
+def two_hands(handle: Vector) -> tuple[Vector, Vector]:
+    """Return where two hands hold a bar across at a handle, left hand first, m."""
+    x, y, z = handle
+    return (x, y + HANDLES_APART / 2.0, z), (x, y - HANDLES_APART / 2.0, z)
+
+
+def _absolute_meshes(root: ElementTree.Element, folder: Path) -> None:
+    """Give meshes their absolute paths.
+
+    Raises
+    ------
+    InputError
+        If there is no such file, or it is to be seen and of a kind that is not drawn.
+    """
+    for link in root.findall("link"):
+        for kind in ("collision", "visual"):
+            for mesh in link.findall(f"{kind}/geometry/mesh"):
+                given = mesh.get("filename", "")
+                path = _mesh_path(given, folder)
+                fault = f'robot: link {link.get("name", "")!r}, <{kind}>: <mesh filename="{given}">'
+                if not path.is_file():
+                    raise InputError(f"{fault}: there is no mesh {str(path)!r}")
+                if kind == "visual" and path.suffix.lower() not in DRAWN:
+                    raise InputError(f"{fault}: must be one of {', '.join(DRAWN)} to be drawn")
+                mesh.set("filename", str(path))
+
+
+def _mesh_path(name: str, folder: Path) -> Path:
+    if name.startswith("package://"):
+        # Named from the folder that holds the package, which the file itself lies in.
+        inside = name.removeprefix("package://")
+        holders = (place for place in (folder, *folder.parents) if (place / inside).is_file())
+        return next(holders, folder) / inside
+    return folder / name.removeprefix("file://")
+
+
+def _locked(root: ElementTree.Element) -> str:
+    """Return the robot with its joints fixed where they are at zero, for who draws it."""
+    for joint in root.findall("joint"):
+        joint.set("type", "fixed")
+        for part in list(joint):
+            if part.tag not in ("parent", "child", "origin"):
+                joint.remove(part)
+    return ElementTree.tostring(root, encoding="unicode")

@@ -1,0 +1,1 @@
+"""The force-torque sensor: its faults, presets, channels, filter and transmission."""

@@ -1,0 +1,1 @@
+"""The kinematic plant of the paper."""

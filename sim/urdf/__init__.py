@@ -1,0 +1,1 @@
+"""Robot files: read, judged, taken apart into shapes and chains."""

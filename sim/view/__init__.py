@@ -1,0 +1,1 @@
+"""What can be seen of a plant: pictures, a window, plain drawings."""

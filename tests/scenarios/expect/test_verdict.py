@@ -1,0 +1,215 @@
+import numpy as np
+import pytest
+
+from cowalk.scenarios.expect.verdict import explain, judge, syntax_error
+from cowalk.scenarios.trace.trace import UNITS
+from cowalk.sim.basics.errors import InputError
+
+PERIOD = 0.05
+T = (np.arange(100) + 1) * PERIOD
+COLUMNS = {
+    "t": T,
+    "ramp": T - 2.0,
+    "wave": np.sin(T),
+    "zero": np.zeros(100),
+    "count": np.floor(T),
+    "nowhere": np.full(100, np.inf),
+    "unknown": np.full(100, np.nan),
+    "late": np.where(T < 0.29, np.nan, T),
+}
+
+
+def verdict(formula, columns=COLUMNS):
+    (found,) = judge({"it": formula}, columns, PERIOD)
+    return found
+
+
+@pytest.mark.parametrize(
+    ("formula", "robustness"),
+    [
+        ("always (ramp >= -2.0)", 0.05),
+        ("eventually (ramp > 2.9)", 0.1),
+        ("always[0:2s] (ramp <= 1.0)", 0.95),
+        ("eventually[1s:2s] (t >= 2.0)", 0.05),
+        ("always ((t < 2.0) implies (ramp < 0.5))", 0.25),
+        ("always (abs(wave) <= 1.5)", 0.5),
+        ("(t < 1) until[0:3s] (ramp > -1.5)", 0.25),
+        ("not (ramp > 0)", 1.95),
+        ("always (2 * count - count <= 5)", 0.0),
+        ("always (nowhere >= 0.3)", np.inf),
+        ("(zero == 1) iff (ramp > 100)", 1.0),
+    ],
+)
+def test_what_holds_passes_with_its_margin(formula, robustness):
+    found = verdict(formula)
+    assert found.passed
+    assert found.robustness == pytest.approx(robustness, abs=1e-3)
+    assert found.violated_at is None
+    assert found.reason is None
+
+
+@pytest.mark.parametrize(
+    ("formula", "robustness", "violated_at"),
+    [
+        ("always (ramp <= 1.0)", -2.0, 3.05),
+        ("always[1s:2s] (ramp <= -1.5)", -1.55, 1.05),
+        ("eventually (ramp > 4.0)", -1.0, 5.0),
+        ("eventually[0:1s] (ramp > 4.0)", -4.95, 1.05),
+        ("always ((ramp > 0.0) implies eventually[0:1s] (wave > 0.5))", None, 2.65),
+        ("ramp > 0.0", -1.95, 0.05),
+        ("always (ramp <= 2.0) and always (ramp <= 1.0)", -2.0, 3.05),
+        ("always (ramp <= 1.0) and always (wave <= 2.0)", -2.0, 3.05),
+    ],
+)
+def test_what_does_not_hold_fails_where_it_first_does_not(formula, robustness, violated_at):
+    found = verdict(formula)
+    assert not found.passed
+    assert found.violated_at == pytest.approx(violated_at)
+    assert found.robustness < 0.0
+    if robustness is not None:
+        assert found.robustness == pytest.approx(robustness, abs=1e-3)
+    assert f"first violated at t = {violated_at:g} s" in explain(found)
+
+
+@pytest.mark.parametrize(
+    ("formula", "passed"),
+    [
+        ("zero >= 0", True),
+        ("zero > 0", False),
+        ("not (zero > 0)", True),
+        ("not (zero >= 0)", False),
+        ("zero == 0", True),
+        ("not (zero == 0)", False),
+        ("zero != 0", False),
+        ("zero != 1", True),
+        ("(zero == 0) xor (ramp < 0)", False),
+        ("(zero == 0) xor (ramp > 0)", True),
+        ("(zero == 0) iff (ramp > 0)", False),
+        ("eventually (zero > 0)", False),
+        ("always ((count == 3) implies (t >= 3.0))", True),
+        ("always ((count == 3) implies (t >= 3.5))", False),
+        ("eventually (rise(count >= 3))", True),
+        ("eventually (fall(t > 0))", False),
+        ("always (nowhere == nowhere)", True),
+    ],
+)
+def test_a_comparison_with_nothing_to_spare_is_still_true_or_false(formula, passed):
+    assert verdict(formula).passed is passed
+
+
+@pytest.mark.parametrize(
+    "formula",
+    [
+        "always (unknown > 0)",
+        "always (not (unknown > 0))",
+        "not (unknown > 0)",
+        "eventually (unknown > 0)",
+        "always ((unknown > 0) implies (t < 0))",
+        "always ((t > 0) iff (unknown > 0))",
+        "always (late > 0)",
+    ],
+)
+def test_a_verdict_that_hangs_on_nan_fails_and_says_so(formula):
+    found = verdict(formula)
+    assert not found.passed
+    assert np.isnan(found.robustness)
+    name = "late" if "late" in formula else "unknown"
+    assert f"{name} is not a number (NaN) in {5 if name == 'late' else 100} of 100 rows" in (
+        found.reason
+    )
+    assert "first at t = 0.05 s" in found.reason
+
+
+@pytest.mark.parametrize(
+    ("formula", "passed"),
+    [
+        ("always ((unknown > 0) or (zero == 0))", True),
+        ("always[0.3s:5s] (late > 0)", True),
+        ("always (late > 1.0)", False),
+        ("eventually (late > 4.0)", True),
+    ],
+)
+def test_nan_beside_the_point_changes_nothing(formula, passed):
+    found = verdict(formula)
+    assert found.passed is passed
+    assert found.reason is None
+
+
+def test_a_violation_beside_nan_is_dated_where_it_is_certain():
+    assert verdict("always (late > 1.0)").violated_at == pytest.approx(0.3)
+    assert verdict("always (late > 0.2)").violated_at == pytest.approx(0.05)
+
+
+def test_arithmetic_without_a_result_fails_and_says_so():
+    assert "no number" in verdict("always (sqrt(zero - 1) >= 0)").reason
+    assert not verdict("always (zero / zero >= 0)").passed
+
+
+def test_beyond_the_end_nothing_is_held_against_always_and_nothing_counts_for_eventually():
+    assert verdict("always[0:40s] (zero == 0)").passed
+    assert not verdict("eventually[0:40s] (zero == 1)").passed
+    assert verdict("eventually[0:40s] (t >= 4.0)").passed
+    assert verdict("always ((t >= 4.9) implies always[0:3s] (zero == 0))").passed
+
+
+@pytest.mark.parametrize(
+    "formula",
+    ["always[40s:50s] (zero > 1)", "(zero == 0) and always[5s:6s] (zero == 0)"],
+)
+def test_what_looks_only_beyond_the_end_fails(formula):
+    found = verdict(formula)
+    assert not found.passed
+    assert "the run ended at 5 s" in found.reason
+
+
+def test_a_trace_of_one_row_is_judged_and_an_empty_one_fails():
+    assert verdict("always (x > 0)", {"x": np.ones(1)}).passed
+    assert verdict("always (x > 0)", {"x": np.ones(0)}).reason == "nothing was recorded"
+
+
+def test_without_times_they_are_counted_in_periods():
+    assert verdict("always (x > 0)", {"x": np.array([1.0, 1.0, -1.0])}).violated_at == (
+        pytest.approx(0.15)
+    )
+
+
+def test_every_column_of_a_trace_can_be_used():
+    for column in UNITS:
+        assert syntax_error(f"always ({column} >= -0.5)", UNITS, PERIOD) is None
+
+
+@pytest.mark.parametrize(
+    ("formula", "words"),
+    [
+        ("always (x >", "ends too early"),
+        ("", "ends too early"),
+        ("always (x > 0))", "')' at character 15 cannot stand there"),
+        ("x # 3", "'#' at character 3 cannot stand there"),
+        ("always (clearence > 0)", "did you mean 'clearance'?"),
+        ("x/2 > 3", "put spaces around /"),
+        ("x = 3", "write == to compare"),
+        ("-x > 3", "write (0 - x)"),
+        ("always x", "x is a number; compare it, such as x >= 0"),
+        ("0 <= x <= 1", "(0 <= x) and (x <= 1)"),
+        ("always (x > 0) y > 0", "join them with and"),
+        ("always[5:2] (x > 0)", "must rise from 0 s on"),
+        ("always[-1:2] (x > 0)", "must rise from 0 s on"),
+        ("always[0:0.33] (x > 0)", "0.33 s is not a whole number of control periods of 0.05 s"),
+        ("(x > 0) unless (y > 0)", "bounds"),
+        ("allways[0:1s] (x > 0)", "unknown operator 'allways'; did you mean 'always'?"),
+        ("not (sometimes (x > 0))", "unknown operator 'sometimes'; known: always, eventually,"),
+    ],
+)
+def test_a_broken_formula_is_explained_in_one_line(formula, words, capfd):
+    message = syntax_error(formula, UNITS, PERIOD)
+    assert words in message
+    assert "\n" not in message
+    with pytest.raises(InputError, match=r"expect\.it = "):
+        judge({"it": formula}, dict.fromkeys(UNITS, T), PERIOD)
+    assert capfd.readouterr() == ("", "")  # the parser generator would print
+
+
+@pytest.mark.parametrize("bounds", ["[0:1s]", "[0s:1]", "[0:1000ms]", "[0,1]", "[0s,1000ms]"])
+def test_bounds_may_be_written_in_many_ways(bounds):
+    assert verdict(f"eventually{bounds} (t >= 1.05)").passed
+    assert not verdict(f"eventually{bounds} (t >= 1.06)").passed

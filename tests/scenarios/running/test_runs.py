@@ -1,0 +1,247 @@
+"""Whole runs: every shipped scenario, determinism, what a run folder holds, runs that break."""
+
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+
+from cowalk.agents import AUTOMATIONS, HUMANS
+from cowalk.estimation.registry import SMOOTHERS
+from cowalk.scenarios import load, make_env, run
+from cowalk.scenarios.files.loading import library
+from cowalk.scenarios.trace.trace import UNITS, Trace
+from cowalk.sim.basics.errors import InputError
+from cowalk.sim.plant.registry import PLANTS
+
+
+def trace_of(source, *overrides):
+    result = run(load(source, overrides))
+    assert result.error is None, result.error
+    return result.trace
+
+
+@pytest.fixture(scope="module")
+def puddle():
+    return run(load("puddle"))
+
+
+@pytest.mark.parametrize("name", list(library()))
+def test_every_scenario_repeats_bit_for_bit_in_another_process(name):
+    here = trace_of(name)
+    code = (
+        "import sys; from cowalk.scenarios import load, run; "
+        f"sys.stdout.buffer.write(run(load({name!r})).trace.values.tobytes())"
+    )
+    there = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True).stdout
+    assert len(here) > 100
+    assert here.values.tobytes() == there[-here.values.nbytes :]
+
+
+@pytest.mark.parametrize("plant", PLANTS.names())
+@pytest.mark.parametrize("human", HUMANS.names())
+@pytest.mark.parametrize("automation", AUTOMATIONS.names())
+def test_every_human_meets_every_automation_on_every_plant(
+    plant, human, automation, stand_in_recording
+):
+    parts = [f"plant={plant}", f"human={human}", f"automation={automation}"]
+    if human == "recorded":  # the one model without a default for everything
+        parts.append(f"human.parameters.file={stand_in_recording}")
+    trace = trace_of("puddle", *parts, "duration=4")
+    assert len(trace) == 80
+    assert np.isfinite(trace.values).all()
+
+
+@pytest.mark.parametrize("smoother", SMOOTHERS.names())
+def test_every_smoother_runs_in_the_loop(smoother):
+    trace = trace_of("puddle", f"automation.smoother={smoother}", "duration=8", "plant=unicycle")
+    assert np.ptp(trace["smoothed_stubbornness_omega"]) > 0.05
+
+
+def test_the_walked_path_clears_the_puddle(puddle):
+    assert puddle.summary["end"] == "goal"
+    assert puddle.trace["clearance"].min() > 0.05
+    assert puddle.passed
+
+
+def test_the_force_is_the_constraints_and_not_the_intent(puddle):
+    noise = 0.05 / np.sqrt(12)  # of the sensor, averaged over a control step
+    for trace in (puddle.trace, trace_of("puddle", "sensor.noise_density=0.0")):
+        walking = trace["t"] > 3.0
+        intent = trace["fy_intent"][walking]
+        difference = trace["fy"][walking] - intent
+        # The body between hand and handle adds dynamics: more than noise, less than the intent.
+        assert difference.std() > 3.0 * noise
+        assert np.corrcoef(trace["fy"][walking], intent)[0, 1] > 0.95
+
+
+def test_an_automation_that_never_yields_changes_the_humans_force(puddle):
+    stubborn = run(load("puddle", ["automation=never-yields"]))
+    assert stubborn.trace["clearance"].min() < 0.0
+    assert not stubborn.passed
+    mean = [np.abs(each.trace["fy_intent"]).mean() for each in (puddle, stubborn)]
+    assert mean[1] > 1.15 * mean[0]
+
+
+REUSED = """
+import numpy as np
+from cowalk.agents import Belief
+
+class Counting:
+    def reset(self, rng, situation): self.now = Belief()
+    def act(self, observation):
+        self.now.negotiation += 1
+        return np.array([0.8, 0.0])
+    def belief(self): return self.now
+"""
+
+
+def test_a_belief_object_that_is_used_again_is_read_again(tmp_path, monkeypatch):
+    (tmp_path / "counting.py").write_text(REUSED)
+    monkeypatch.syspath_prepend(tmp_path)
+    overrides = ["automation=counting:Counting", "plant=unicycle", "duration=2", "expect={}"]
+    result = run(load("puddle", overrides))
+    np.testing.assert_array_equal(result.trace["negotiation"], np.arange(1, 41))
+    assert result.write(tmp_path / "run").exists()  # its other beliefs are NaN
+
+
+def test_the_trace_holds_the_force_that_acted(tmp_path, monkeypatch):
+    (tmp_path / "strong.py").write_text(
+        BROKEN.replace("np.array([0.0, np.nan])", "np.full(2, 1e6)")
+    )
+    monkeypatch.syspath_prepend(tmp_path)
+    overrides = ["human=strong:NotANumber", "plant=unicycle", "duration=2", "force_limit=12"]
+    trace = trace_of("puddle", *overrides)
+    np.testing.assert_array_equal(trace["fx_intent"][30:], 12.0)
+
+
+def test_the_seed_matters_and_the_noise_is_the_sensors():
+    quiet = [trace_of("puddle", f"seed={seed}", "sensor.noise_density=0.0") for seed in (1, 2)]
+    assert quiet[0].values.tobytes() == quiet[1].values.tobytes()
+    one, two = trace_of("puddle", "seed=1"), trace_of("puddle", "seed=2")
+    same = trace_of("puddle", "seed=2")
+    assert one.values.tobytes() != two.values.tobytes()
+    assert two.values.tobytes() == same.values.tobytes()
+
+
+def test_the_trace_holds_what_the_sensor_read_in_its_own_axes():
+    turned = ["plant.parameters.mount={position: [0, 0, -0.1], rpy: [0, 0, 1.5707963267948966]}"]
+    columns = trace_of("walk", "duration=3", "expect={}", *turned).columns()
+    seen = [columns[f"sensor_{name}"] for name in ("force_x", "force_y", "torque_x", "torque_y")]
+    # Its x axis is the base's y, and the handle is 0.1 m above it.
+    np.testing.assert_allclose(seen[0], columns["fy"], atol=1e-12)
+    np.testing.assert_allclose(seen[1], -columns["fx"], atol=1e-12)
+    exact = trace_of("walk", "duration=3", "expect={}", "sensor={}", *turned).columns()
+    np.testing.assert_allclose(exact["sensor_torque_x"], 0.1 * exact["fx"], atol=1e-12)
+    np.testing.assert_allclose(exact["sensor_torque_y"], 0.1 * exact["fy"], atol=1e-12)
+    assert np.abs(exact["sensor_torque_y"]).max() > 0.05
+
+
+def test_a_trace_from_before_torque_was_measured_is_read_without_it(puddle, tmp_path):
+    file = puddle.write(tmp_path / "run") / "trace.parquet"
+    table = pq.read_table(file)
+    older = [name for name in table.column_names if not name.startswith("sensor_")]
+    pq.write_table(table.select(older), file)
+    trace = Trace.read(file)
+    np.testing.assert_array_equal(trace["fx"], puddle.trace["fx"])
+    assert np.isnan(trace["sensor_torque_z"]).all()
+    pq.write_table(table.drop_columns(["fx", "clearance"]), file)
+    with pytest.raises(InputError, match=r"trace.parquet: not a trace: .* no column fx, clearance"):
+        Trace.read(file)
+
+
+def test_a_run_folder_holds_everything_and_runs_again(puddle, tmp_path):
+    folder = puddle.write(tmp_path / "run")
+    schema = pq.read_schema(folder / "trace.parquet")
+    assert {field.name: field.metadata[b"unit"].decode() for field in schema} == UNITS
+    np.testing.assert_array_equal(Trace.read(folder / "trace.parquet").values, puddle.trace.values)
+    summary = json.loads((folder / "summary.json").read_text())
+    assert summary["seed"] == 1
+    assert summary["real_time_factor"] > 0.0
+    assert {"python", "cowalk", "pybullet", "numpy"} <= set(summary["versions"])
+    assert summary["metrics"]["smallest clearance"]["unit"] == "m"
+    assert (folder / "figure.png").read_bytes().startswith(b"\x89PNG")
+    resolved = load(folder / "scenario.yaml")
+    # Defaults are written out, so that the file still gives this run when they have changed.
+    assert resolved.human.parameters["growth"] == 0.38
+    assert resolved.automation.smoother.parameters == {"window": 5}
+    assert resolved.plant.parameters["drive"]["gain_forward"] == 2000.0
+    again = run(resolved)
+    assert again.trace.values.tobytes() == puddle.trace.values.tobytes()
+
+
+def test_make_env_builds_the_scenarios_world():
+    env = make_env("puddle")
+    observations, _ = env.reset(seed=0)
+    assert env.world == load("puddle").world
+    assert observations["human"]["obstacles"][0, 0] == 1.0
+    env.close()
+
+
+BROKEN = """
+import numpy as np
+from cowalk.agents import Truth
+
+class Base:
+    def reset(self, rng, situation): self.count = 0
+    def truth(self): return Truth(np.zeros(2), np.zeros(2))
+    def act(self, observation):
+        self.count += 1
+        return self.force() if self.count > 30 else np.zeros(2)
+
+class NotANumber(Base):
+    def force(self): return np.array([0.0, np.nan])
+
+class Infinite(Base):
+    def force(self): return np.array([np.inf, 0.0])
+
+class Raises(Base):
+    def force(self): raise ZeroDivisionError("division by zero")
+
+class Exits(Base):
+    def force(self): raise SystemExit(5)
+
+class ThreeNumbers(Base):
+    def force(self): return np.zeros(3)
+
+class AScalar(Base):
+    def force(self): return 1.0
+
+class NoTruth(Base):
+    def force(self): return np.zeros(2)
+    def truth(self): return super().truth() if self.count <= 30 else None
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("NotANumber", "at t = 1.5 s: act() gave [0.0, nan]; the force [fx, fy] in N must be fin"),
+        ("Infinite", "at t = 1.5 s: act() gave [inf, 0.0]"),
+        ("Raises", "failed at t = 1.5 s: ZeroDivisionError"),
+        ("Exits", "failed at t = 1.5 s: SystemExit"),
+        ("ThreeNumbers", "act() gave an array of shape (3,); it must be the force"),
+        ("AScalar", "act() gave 1.0; it must be the force [fx, fy] in N"),
+        ("NoTruth", "truth() gave None; it must be a Truth"),
+    ],
+)
+def test_a_run_that_dies_midway_says_why_and_keeps_its_trace(name, said, tmp_path, monkeypatch):
+    (tmp_path / "broken_humans.py").write_text(BROKEN)
+    monkeypatch.syspath_prepend(tmp_path)
+    result = run(load("puddle", [f"human=broken_humans:{name}", "plant=unicycle"]))
+    assert said in result.error
+    assert result.error.startswith(f"human 'broken_humans:{name}' ")
+    assert "\n" not in result.error
+    assert result.summary["end"] == "aborted"
+    assert len(result.trace) == 30
+    assert not result.passed
+    folder = result.write(tmp_path / "run")
+    assert len(Trace.read(folder / "trace.parquet")) == 30
+
+
+@pytest.mark.parametrize("pace", [0.8, 1.2])
+def test_walking_hand_in_hand_is_taken_for_no_wish_at_any_usual_pace(pace):
+    result = run(load("walk", (f"pace={pace}",)))
+    assert result.passed, result.verdicts
