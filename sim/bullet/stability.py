@@ -102,6 +102,10 @@ class Linear:
             rows.append((own, hand - handle, turn - base_turn))
         self._inverse = np.linalg.inv(mass)
         self._hands = rows
+        # What trunk and joints do where all of it rides on the base as one.
+        self._ridden = np.zeros((n - 3, 3))
+        self._ridden[:2] = self._carried(0, (place_x, place_y))[:, :3]
+        self._ridden[2, 2] = 1.0
         # Where the legs want the trunk, seen from the base (see `Walker`).
         self._legs = np.zeros((3, n))
         self._legs[:, 3:6] = np.eye(3)
@@ -133,7 +137,9 @@ class Linear:
     def growth(
         self, walker: WalkerParameters, grip: GripParameters, held: int, lost: bool
     ) -> float:
-        """Return by what factor the fastest growing motion grows in an update; 1 if none does.
+        """Return by what factor the fastest growing motion grows in an update.
+
+        The base's place in the world is left out; beside it, 1 or less is a motion that stays.
 
         Parameters
         ----------
@@ -167,23 +173,26 @@ class Linear:
         gains = legs_of(walker, self.body)
         legs_k = np.array([gains.stiffness] * 2 + [gains.yaw_stiffness])[:, None] * self._legs
         legs_b = np.array([gains.damping] * 2 + [gains.yaw_damping])[:, None] * self._legs
-        legs = -np.concatenate((legs_k, legs_b), axis=1)
-        # The state: coordinates, rates, and what the legs decided and have not done yet.
-        size = 2 * n + 3 * late
+        # The state: coordinates seen from the base, rates, and what the legs decided and have not
+        # done yet. Where the base is does not matter, and with it a base that nothing holds would
+        # have a defective eigenvalue of 1, which rounding moves by the root of its size.
+        seen = n - 3
+        size = seen + n + 3 * late
         force = np.zeros((n, size))
-        force[:, : 2 * n] = -np.concatenate((spring, damper), axis=1)
+        force[:, :seen], force[:, seen : seen + n] = -spring[:, 3:], -damper
+        legs = -np.concatenate((legs_k[:, 3:], legs_b), axis=1)
         if late:
-            force[3:6, 2 * n : 2 * n + 3] += np.eye(3)
+            force[3:6, seen + n : seen + n + 3] += np.eye(3)
         else:
-            force[3:6, : 2 * n] += legs
-        place, rate = np.eye(n, size), np.eye(n, size, n)
+            force[3:6, : seen + n] += legs
+        place, rate = np.eye(seen, size), np.eye(n, size, seen)
         keep, push = free @ (np.eye(n) - h * inverse @ self._drive), h * free @ inverse @ force
         for _ in range(held):
             rate = keep @ rate + push
-            place = place + h * rate
+            place = place + h * (rate[3:] - self._ridden @ rate[:3])
         step = np.zeros((size, size))
-        step[:n], step[n : 2 * n] = place, rate
+        step[:seen], step[seen : seen + n] = place, rate
         if late:
-            step[2 * n : -3, 2 * n + 3 :] = np.eye(3 * (late - 1))
-            step[-3:, : 2 * n] = legs
+            step[seen + n : -3, seen + n + 3 :] = np.eye(3 * (late - 1))
+            step[-3:, : seen + n] = legs
         return float(np.abs(np.linalg.eigvals(step)).max())
