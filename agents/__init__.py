@@ -1,22 +1,6 @@
 """Who decides: human models, automations, and the registries that find them by name."""
 
-from cowalk.sim.basics.observation import Observation
-from cowalk.sim.basics.situation import Situation
+# What is public is listed in __init__.pyi, and imported when it is first asked for.
+import lazy_loader
 
-from .basics.protocols import Automation, Belief, Human, Truth
-from .checks.conformance import check_automation, check_human
-from .registry import AUTOMATIONS, HUMANS, IMPERFECTIONS
-
-__all__ = [
-    "AUTOMATIONS",
-    "HUMANS",
-    "IMPERFECTIONS",
-    "Automation",
-    "Belief",
-    "Human",
-    "Observation",
-    "Situation",
-    "Truth",
-    "check_automation",
-    "check_human",
-]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -13,7 +13,8 @@ from pathlib import Path
 
 import numpy as np
 
-from cowalk.agents import HUMANS, Human, Observation, Situation
+from cowalk.agents import HUMANS, Human
+from cowalk.sim import Observation, Situation
 from cowalk.sim.basics.motion import TwistBounds, world_to_base
 from cowalk.sim.basics.path import Path as WalkingPath
 

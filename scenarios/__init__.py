@@ -1,25 +1,6 @@
 """What happens and what must hold: scenario files, runs, expectations and their figures."""
 
-from __future__ import annotations
+# What is public is listed in __init__.pyi, and imported when it is first asked for.
+import lazy_loader
 
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from .files.loading import load
-    from .running.build import make_env
-    from .running.runner import run
-
-__all__ = ["load", "make_env", "run"]
-
-
-def __getattr__(name: str) -> Any:
-    # The command line answers --help at once, because nothing is imported before it is needed.
-    if name == "load":
-        from .files.loading import load
-
-        return load
-    if name in __all__:
-        from .running import runner
-
-        return getattr(runner, name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

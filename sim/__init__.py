@@ -1,19 +1,6 @@
-"""What moves and what is measured: plants, the force sensor and the PettingZoo environment."""
+"""What moves and what is measured: plants, worlds, the force sensor, the PettingZoo environment."""
 
-from __future__ import annotations
+# What is public is listed in __init__.pyi, and imported when it is first asked for.
+import lazy_loader
 
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from .env.env import CowalkEnv, parallel_env
-
-__all__ = ["CowalkEnv", "parallel_env"]
-
-
-def __getattr__(name: str) -> Any:
-    # PettingZoo is imported by those who use the environment, not by those who use an arc.
-    if name in __all__:
-        from .env import env
-
-        return getattr(env, name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -14,7 +14,7 @@ from pydantic.errors import PydanticSchemaGenerationError, PydanticUserError
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.registry import Registry
 
-from .documents import KeyPath, Problem
+from .documents import Fault, KeyPath
 from .schema import Component
 from .validation import validate
 
@@ -46,14 +46,12 @@ def build(registry: Registry[T], component: Component, section: str, **shared: A
         If the name or a parameter is not right; the first fault, in one line.
     """
     found = attempt(registry, component, section, **shared)
-    if isinstance(found, Problem):
+    if isinstance(found, Fault):
         raise InputError(found.message)
     return found
 
 
-def attempt(
-    registry: Registry[T], component: Component, section: str, **shared: Any
-) -> T | Problem:
+def attempt(registry: Registry[T], component: Component, section: str, **shared: Any) -> T | Fault:
     """Return the object that a component names, or the first problem (see `build`)."""
     constructor, parameters, problems = _prepare(registry, component, section, shared)
     if problems or constructor is None:
@@ -67,7 +65,7 @@ def attempt(
 
 def check_parameters(
     registry: Registry[Any], component: Component, section: str, shared: Collection[str] = ()
-) -> list[Problem]:
+) -> list[Fault]:
     """Return every problem of a component's name and parameters, without building it.
 
     Parameters
@@ -110,20 +108,20 @@ def complete(
 
 def _prepare(
     registry: Registry[T], component: Component, section: str, shared: Collection[str]
-) -> tuple[Callable[..., T] | None, dict[str, Any], list[Problem]]:
+) -> tuple[Callable[..., T] | None, dict[str, Any], list[Fault]]:
     """Return the constructor, the validated parameters and every problem of the two."""
     here = _place(section)
     try:
         constructor = registry.get(component.name)
     except InputError as error:
-        return None, {}, [Problem((*here, "name"), f"{section}.name: {error}")]
+        return None, {}, [Fault((*here, "name"), f"{section}.name: {error}")]
     except Exception as error:  # a user's module may raise anything when imported
         reason = f"importing it failed with {type(error).__name__}: {error}"
         message = f"{section}.name = {component.name!r}: {reason}"
-        return None, {}, [Problem((*here, "name"), message)]
+        return None, {}, [Fault((*here, "name"), message)]
     at: KeyPath = (*here, "parameters")
     problems = [
-        Problem((*at, name), f"{section}.parameters.{name}: {_elsewhere(name, section)}")
+        Fault((*at, name), f"{section}.parameters.{name}: {_elsewhere(name, section)}")
         for name in component.parameters
         if name in shared
     ]
@@ -208,13 +206,13 @@ def _checkable(hint: Any) -> Any:
     return hint
 
 
-def _constructor_problem(error: Exception, component: Component, section: str) -> Problem:
+def _constructor_problem(error: Exception, component: Component, section: str) -> Fault:
     """Return why a constructor refused, at the parameter that its message begins with."""
     here = _place(section)
     if not isinstance(error, ValueError):
         reason = f"it cannot be built: {type(error).__name__}: {error}"
-        return Problem((*here, "name"), f"{section}.name = {component.name!r}: {reason}")
+        return Fault((*here, "name"), f"{section}.name = {component.name!r}: {reason}")
     steps = str(error).partition(" ")[0].rstrip(":,").split(".")
     if steps[0] in component.parameters:
-        return Problem((*here, "parameters", *steps), f"{section}.parameters.{error}")
-    return Problem((*here, "parameters"), f"{section}.parameters: {error}")
+        return Fault((*here, "parameters", *steps), f"{section}.parameters.{error}")
+    return Fault((*here, "parameters"), f"{section}.parameters: {error}")

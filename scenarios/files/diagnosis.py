@@ -20,7 +20,7 @@ from cowalk.sim.world.contact import blocked_start
 
 from ..trace.trace import UNITS
 from .building import attempt, check_parameters, complete
-from .documents import Document, KeyPath, Problem, dotted
+from .documents import Document, Fault, KeyPath, dotted
 from .human_seat import attempt_human
 from .overrides import component_sections
 from .schema import Component, Scenario
@@ -49,13 +49,13 @@ SHARED = {
 """Constructor arguments that come from elsewhere in the scenario."""
 
 
-def check(document: Document) -> tuple[Scenario | None, list[Problem]]:
+def check(document: Document) -> tuple[Scenario | None, list[Fault]]:
     """Return the scenario of a document, or all of its problems."""
     if document.data is None and document.problems:
         return None, document.problems
     if not isinstance(document.data, dict):
         keys = ", ".join(name for name, item in Scenario.model_fields.items() if item.is_required())
-        return None, [Problem((), f"this holds no scenario; it needs at least the keys {keys}")]
+        return None, [Fault((), f"this holds no scenario; it needs at least the keys {keys}")]
     data, unknown = _with_preset(document.data)
     scenario, problems = validate(Scenario, data)
     problems += unknown
@@ -67,17 +67,17 @@ def check(document: Document) -> tuple[Scenario | None, list[Problem]]:
         try:
             scenario.automation.negotiation.steps(scenario.rates.period)
         except InputError as error:
-            problems.append(Problem(("automation", "negotiation", "period"), str(error)))
+            problems.append(Fault(("automation", "negotiation", "period"), str(error)))
         try:
             require_reachable(scenario.pace, scenario.bounds)
         except InputError as error:
-            problems.append(Problem(("pace",), str(error)))
+            problems.append(Fault(("pace",), str(error)))
         problems += _too_late(scenario)
         problems += _never_come(scenario)
     return scenario, problems
 
 
-def _with_preset(data: dict[str, Any]) -> tuple[dict[str, Any], list[Problem]]:
+def _with_preset(data: dict[str, Any]) -> tuple[dict[str, Any], list[Fault]]:
     """Return the data with the sensor's preset written out beneath what is given beside it."""
     section = data.get("sensor", {})
     if section is None or section is False:  # as YAML reads "off"
@@ -89,7 +89,7 @@ def _with_preset(data: dict[str, Any]) -> tuple[dict[str, Any], list[Problem]]:
     try:
         preset = asdict(sensor_preset("none" if named in (None, False) else str(named)))
     except InputError as error:
-        return {**data, "sensor": given}, [Problem(("sensor", "preset"), f"sensor.preset: {error}")]
+        return {**data, "sensor": given}, [Fault(("sensor", "preset"), f"sensor.preset: {error}")]
     off = asdict(SensorParameters())
     changed = {key: value for key, value in preset.items() if value != off[key]}
     return {**data, "sensor": changed | given}, []
@@ -125,9 +125,9 @@ def resolve(scenario: Scenario) -> Scenario:
     )
 
 
-def _components(data: dict[str, Any], scenario: Scenario | None) -> list[Problem]:
+def _components(data: dict[str, Any], scenario: Scenario | None) -> list[Fault]:
     """Return the problems of all named parts; they are built if everything around is right."""
-    problems: list[Problem] = []
+    problems: list[Fault] = []
     for _, path, value in component_sections(data):
         section = dotted(path)
         kind = dotted(tuple(step for step in path if isinstance(step, str)))
@@ -142,10 +142,10 @@ def _components(data: dict[str, Any], scenario: Scenario | None) -> list[Problem
     return problems
 
 
-def _start(scenario: Scenario) -> list[Problem]:
+def _start(scenario: Scenario) -> list[Fault]:
     """Return why the plant cannot be built, or why its bodies cannot stand at the start."""
     plant = attempt(PLANTS, scenario.plant, "plant", rates=scenario.rates)
-    if isinstance(plant, Problem):
+    if isinstance(plant, Fault):
         return [plant]
     world = scenario.world
     try:
@@ -153,15 +153,15 @@ def _start(scenario: Scenario) -> list[Problem]:
         if not plant.distances(world)(0.0, *state.poses)[1]:
             return []
         reason = blocked_start(world, plant.bodies, state.poses, plant.distances)
-        return [Problem(("world", "start"), reason)]
+        return [Fault(("world", "start"), reason)]
     except Exception as error:  # a user's class may raise anything
         reason = f"it cannot be started: {type(error).__name__}: {error}"
-        return [Problem(("plant", "name"), f"plant.name = {scenario.plant.name!r}: {reason}")]
+        return [Fault(("plant", "name"), f"plant.name = {scenario.plant.name!r}: {reason}")]
     finally:
         plant.close()
 
 
-def _agents(scenario: Scenario) -> list[Problem]:
+def _agents(scenario: Scenario) -> list[Fault]:
     """Return why the agents cannot be built: a value that only its constructor can judge."""
     seat = scenario.automation
     shared: dict[str, Any] = {
@@ -174,10 +174,10 @@ def _agents(scenario: Scenario) -> list[Problem]:
         *shared.values(),
         attempt(AUTOMATIONS, seat, "automation", **shared),
     )
-    return [part for part in built if isinstance(part, Problem)]
+    return [part for part in built if isinstance(part, Fault)]
 
 
-def _too_late(scenario: Scenario) -> list[Problem]:
+def _too_late(scenario: Scenario) -> list[Fault]:
     """Return what takes as long as the run, so that it would be over before."""
     drive = scenario.plant.parameters.get("drive")
     delays: list[tuple[KeyPath, Any]] = [
@@ -189,18 +189,18 @@ def _too_late(scenario: Scenario) -> list[Problem]:
         delays.append((path, item.parameters.get("delay")))
     run = f"the run, duration = {scenario.duration:g} s"
     found = [
-        Problem(path, f"{dotted(path)} = {delay:g} s: must be shorter than {run}")
+        Fault(path, f"{dotted(path)} = {delay:g} s: must be shorter than {run}")
         for path, delay in delays
         if isinstance(delay, int | float) and delay >= scenario.duration
     ]
     rate = scenario.sensor.rate
     if 0.0 < rate * scenario.duration <= 1.0:
         what = f"sensor.rate = {rate:g} Hz: must convert more than once in {run}"
-        found.append(Problem(("sensor", "rate"), what))
+        found.append(Fault(("sensor", "rate"), what))
     return found
 
 
-def _never_come(scenario: Scenario) -> list[Problem]:
+def _never_come(scenario: Scenario) -> list[Fault]:
     """Return which changes of mind come after the run's end, or ask for more than its bounds."""
     duration, length = scenario.duration, scenario.world.path.length
     fastest = scenario.bounds.upper[0]
@@ -210,17 +210,17 @@ def _never_come(scenario: Scenario) -> list[Problem]:
         "at_station": (behind, f"m: must lie before the end of world.path, {length:g} m"),
         "pace": (fastest, f"m/s: must not be above the upper bound of v, {fastest:g} m/s"),
     }
-    found: list[Problem] = []
+    found: list[Fault] = []
     for index, change in enumerate(scenario.human.intention.changes):
         for key, (most, what) in limits.items():
             value = getattr(change, key)
             if value is not None and value > most:
                 path: KeyPath = ("human", "intention", "changes", index, key)
-                found.append(Problem(path, f"{dotted(path)} = {value:g} {what}"))
+                found.append(Fault(path, f"{dotted(path)} = {value:g} {what}"))
     return found
 
 
-def _formulas(data: dict[str, Any], scenario: Scenario | None) -> list[Problem]:
+def _formulas(data: dict[str, Any], scenario: Scenario | None) -> list[Fault]:
     """Return the problems of all expectations."""
     expect = data.get("expect")
     if not isinstance(expect, dict) or not expect:
@@ -228,8 +228,8 @@ def _formulas(data: dict[str, Any], scenario: Scenario | None) -> list[Problem]:
     from ..expect.verdict import syntax_error
 
     period = scenario.rates.period if scenario else None
-    found: list[Problem] = []
+    found: list[Fault] = []
     for name, formula in expect.items():
         if isinstance(formula, str) and (reason := syntax_error(formula, UNITS, period)):
-            found.append(Problem(("expect", name), f"expect.{name} = {formula!r}: {reason}"))
+            found.append(Fault(("expect", name), f"expect.{name} = {formula!r}: {reason}"))
     return found

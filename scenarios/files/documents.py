@@ -31,7 +31,7 @@ class Loader(yaml.SafeLoader):
 
 
 @dataclass(frozen=True)
-class Problem:
+class Fault:
     """Something wrong at a place of a document; the message is whole: key, value and cure."""
 
     path: KeyPath
@@ -48,13 +48,13 @@ class Document:
         Plain data: mappings, lists, text, numbers, booleans and None.
     lines : dict
         Line, from 1, of every key and list entry.
-    problems : list of Problem
+    problems : list of Fault
         What is wrong with the text itself; ``data`` is None where it is no YAML at all.
     """
 
     data: Any = None
     lines: dict[KeyPath, int] = field(default_factory=dict)
-    problems: list[Problem] = field(default_factory=list)
+    problems: list[Fault] = field(default_factory=list)
 
     def line(self, path: KeyPath) -> int:
         """Return the line of a place, or of the nearest thing around it that is there."""
@@ -79,7 +79,7 @@ def parse(text: str) -> Document:
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         document.lines = {(): mark.line + 1 if mark else 1}
-        document.problems.append(Problem((), f"this is not YAML: {_reason(error)}"))
+        document.problems.append(Fault((), f"this is not YAML: {_reason(error)}"))
     return document
 
 
@@ -106,7 +106,7 @@ def _locate(
     """
     document.lines.setdefault(path, node.start_mark.line + 1)
     if node in around:
-        document.problems.append(Problem(path, f"{dotted(path)} contains itself"))
+        document.problems.append(Fault(path, f"{dotted(path)} contains itself"))
         return False
     finite = True
     if isinstance(node, yaml.SequenceNode):
@@ -119,18 +119,18 @@ def _locate(
             place = (*path, str(key.value))
             if str(key.value) in first:
                 message = f"{dotted(place)} is given twice, first in line {first[str(key.value)]}"
-                document.problems.append(Problem(place, message))
+                document.problems.append(Fault(place, message))
             first.setdefault(str(key.value), line)
             document.lines[place] = line
             finite &= _locate(value, place, document, (*around, node))
     return finite
 
 
-def not_plain(value: Any, path: KeyPath = ()) -> list[Problem]:
+def not_plain(value: Any, path: KeyPath = ()) -> list[Fault]:
     """Return everything in a value that no scenario holds: NaN, infinity, dates, odd keys."""
     if isinstance(value, dict):
         problems = [
-            Problem((*path, str(key)), f"{dotted((*path, str(key)))}: put this key in quotes")
+            Fault((*path, str(key)), f"{dotted((*path, str(key)))}: put this key in quotes")
             for key in value
             if not isinstance(key, str)
         ]
@@ -140,9 +140,9 @@ def not_plain(value: Any, path: KeyPath = ()) -> list[Problem]:
     if isinstance(value, list | tuple):
         return [problem for i, item in enumerate(value) for problem in not_plain(item, (*path, i))]
     if isinstance(value, float) and not math.isfinite(value):
-        return [Problem(path, f"{dotted(path)} = {value}: a finite number is expected")]
+        return [Fault(path, f"{dotted(path)} = {value}: a finite number is expected")]
     if value is not None and not isinstance(value, str | bool | int | float):
         kind = type(value).__name__
         what = f"{dotted(path)} = {value}: a {kind} is not expected; put it in quotes if it is text"
-        return [Problem(path, what)]
+        return [Fault(path, what)]
     return []

@@ -7,7 +7,7 @@ from cowalk.agents.registry import HUMANS, IMPERFECTIONS
 from cowalk.sim.basics.errors import InputError
 
 from .building import attempt
-from .documents import Problem
+from .documents import Fault
 from .schema import HumanComponent
 
 
@@ -28,22 +28,22 @@ def build_human(component: HumanComponent, plant: str, period: float) -> Human:
         If a name or a parameter is not right; the first fault, in one line.
     """
     found = attempt_human(component, plant, period)
-    if isinstance(found, Problem):
+    if isinstance(found, Fault):
         raise InputError(found.message)
     return found
 
 
-def attempt_human(component: HumanComponent, plant: str, period: float) -> Human | Problem:
+def attempt_human(component: HumanComponent, plant: str, period: float) -> Human | Fault:
     """Return the human that a section describes, or the first problem (see `build_human`)."""
-    found: Human | Problem = attempt(HUMANS, component, "human", intention=component.intention)
+    found: Human | Fault = attempt(HUMANS, component, "human", intention=component.intention)
     for index, imperfection in enumerate(component.imperfections):
-        if isinstance(found, Problem):
+        if isinstance(found, Fault):
             break
         section = f"human.imperfections.{index}"
         wrapped = attempt(IMPERFECTIONS, imperfection, section, human=found)
-        if not isinstance(wrapped, Problem) and (reason := unsuited(wrapped, plant, period)):
+        if not isinstance(wrapped, Fault) and (reason := unsuited(wrapped, plant, period)):
             path = ("human", "imperfections", index, "name")
-            wrapped = Problem(path, f"{section}.name = {imperfection.name!r}: {reason}")
+            wrapped = Fault(path, f"{section}.name = {imperfection.name!r}: {reason}")
         found = wrapped
     return found
 

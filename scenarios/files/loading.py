@@ -24,7 +24,7 @@ from .schema import SUFFIX, Scenario
 
 
 @dataclass(frozen=True)
-class Fault:
+class FileFault:
     """Something wrong in a scenario file.
 
     Attributes
@@ -116,7 +116,7 @@ def _touch(one: KeyPath, other: KeyPath) -> bool:
     return bool(other) and one[:shared] == other[:shared]
 
 
-def faults(file: str | Path) -> list[Fault]:
+def faults(file: str | Path) -> list[FileFault]:
     """Return every fault of a scenario file, in the order of its lines; none if it is right.
 
     Raises
@@ -127,7 +127,7 @@ def faults(file: str | Path) -> list[Fault]:
     document = read_document(Path(file))
     expand_names(document.data)
     found = [
-        Fault(Path(file), document.line(problem.path), dotted(problem.path), problem.message)
+        FileFault(Path(file), document.line(problem.path), dotted(problem.path), problem.message)
         for problem in check(document)[1]
     ]
     return sorted(found, key=lambda fault: fault.line)

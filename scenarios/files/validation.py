@@ -16,7 +16,7 @@ from pydantic_core import ErrorDetails
 
 from cowalk.sim.basics.registry import did_you_mean
 
-from .documents import KeyPath, Problem, Step, dotted, not_plain
+from .documents import Fault, KeyPath, Step, dotted, not_plain
 
 M = TypeVar("M", bound=BaseModel)
 
@@ -41,7 +41,7 @@ _LIMITS = {
 }
 
 
-def validate(model: type[M], data: Any, at: KeyPath = ()) -> tuple[M | None, list[Problem]]:
+def validate(model: type[M], data: Any, at: KeyPath = ()) -> tuple[M | None, list[Fault]]:
     """Return a validated model, or every problem of the data.
 
     Nothing is converted but whole numbers to numbers and lists to tuples: a quoted number, or
@@ -69,7 +69,7 @@ def validate(model: type[M], data: Any, at: KeyPath = ()) -> tuple[M | None, lis
             path = _place(details, data)
             message = _message(details, path, at, model)
             path = (*path, *_blamed(details))
-            found.setdefault((*at, *path), Problem((*at, *path), message))
+            found.setdefault((*at, *path), Fault((*at, *path), message))
     return (None if found else validated), list(found.values())
 
 

@@ -18,7 +18,7 @@ from cowalk.sim.basics.rates import Rates
 from cowalk.sim.basics.registry import did_you_mean
 from cowalk.sim.plant.registry import PLANTS
 
-from ..files.documents import Document, KeyPath, Problem, dotted
+from ..files.documents import Document, Fault, KeyPath, dotted
 from ..files.human_seat import attempt_human, unsuited
 from ..files.loading import read_document
 from ..files.overrides import expand_names
@@ -187,11 +187,11 @@ def load_population(source: str | Path) -> Population:
     return population
 
 
-def _check(document: Document) -> tuple[Population | None, list[Problem]]:
+def _check(document: Document) -> tuple[Population | None, list[Fault]]:
     data = document.data
     if not isinstance(data, dict):
         what = "this holds no population; it needs the keys name and groups"
-        return None, document.problems or [Problem((), what)]
+        return None, document.problems or [Fault((), what)]
     groups = data.get("groups")
     for group in groups if isinstance(groups, list) else []:
         expand_names(group)
@@ -200,25 +200,25 @@ def _check(document: Document) -> tuple[Population | None, list[Problem]]:
     for index, group in enumerate(population.groups if population else ()):
         at: KeyPath = ("groups", index, "human")
         problems += [
-            Problem((*at, *problem.path), f"groups.{index}.{problem.message}")
+            Fault((*at, *problem.path), f"groups.{index}.{problem.message}")
             for problem in _group_problems(group.human)
         ]
     return population, problems
 
 
-def _group_problems(section: dict[str, Any]) -> list[Problem]:
+def _group_problems(section: dict[str, Any]) -> list[Fault]:
     """Return what is wrong with a group's human, paths from its section on."""
     laws: dict[KeyPath, Distribution] = {}
-    problems: list[Problem] = []
+    problems: list[Fault] = []
     for path, node in _nodes(section, ()):
         if path[-1:] in ((), ("name",)):
             what = (
                 "a name is no number to draw; for several models, give each a group with a weight"
             )
-            problems.append(Problem(path, f"{dotted(('human', *path))}: {what}"))
+            problems.append(Fault(path, f"{dotted(('human', *path))}: {what}"))
             continue
         law, faults = validate(Distribution, node, ("human", *path))
-        problems += [Problem(fault.path[1:], fault.message) for fault in faults]
+        problems += [Fault(fault.path[1:], fault.message) for fault in faults]
         if law is not None:
             laws[path] = law
     if problems:
@@ -233,17 +233,17 @@ def _group_problems(section: dict[str, Any]) -> list[Problem]:
             if not (isinstance(share, int | float) and 0.0 <= share <= 1.0):
                 where = f"human.imperfections.{index}.{PROBABILITY}"
                 path = ("imperfections", index, PROBABILITY)
-                return [Problem(path, f"{where} = {share}: must lie in [0, 1]")]
+                return [Fault(path, f"{where} = {share}: must lie in [0, 1]")]
         found = _human_problems(human)
         if found:
-            return [Problem(path or found[0].path[1:], found[0].message)]
+            return [Fault(path or found[0].path[1:], found[0].message)]
     return []
 
 
-def _human_problems(section: dict[str, Any]) -> list[Problem]:
+def _human_problems(section: dict[str, Any]) -> list[Fault]:
     """Return what keeps one human from being built, paths from ``human`` on."""
     component, problems = validate(HumanComponent, section, ("human",))
     if component is None:
         return problems
     built = attempt_human(component, "unicycle", _RATES.period)
-    return [built] if isinstance(built, Problem) else []
+    return [built] if isinstance(built, Fault) else []

@@ -44,7 +44,7 @@ MARK = "humans-table"
 
 
 @dataclass(frozen=True)
-class Estimate:
+class Interval:
     """A mean over seeds and its bootstrap interval; NaN where there is nothing to average.
 
     Attributes
@@ -68,14 +68,14 @@ class Cell:
     ----------
     human, automation : str
     metrics : dict
-        `Estimate` by the name of each of `METRICS`.
+        `Interval` by the name of each of `METRICS`.
     ended_early : dict
         Number of runs that were cut short, by what cut them short (`EARLY`).
     """
 
     human: str
     automation: str
-    metrics: dict[str, Estimate]
+    metrics: dict[str, Interval]
     ended_early: dict[str, int]
 
 
@@ -187,7 +187,7 @@ def _shifted(world: World, seed: int) -> World:
     return replace(world, obstacles=obstacles)
 
 
-def estimate(values: Array) -> Estimate:
+def estimate(values: Array) -> Interval:
     """Return the mean of what is not NaN, and its interval by the bias-corrected bootstrap.
 
     Parameters
@@ -196,15 +196,15 @@ def estimate(values: Array) -> Estimate:
     """
     known = values[np.isfinite(values)]
     if not known.size:
-        return Estimate(math.nan, math.nan, math.nan, 0)
+        return Interval(math.nan, math.nan, math.nan, 0)
     mean = float(known.mean())
     if known.size < 2 or np.ptp(known) < 1e-12:  # nothing to resample
         spread = 0.0 if known.size > 1 else math.nan
-        return Estimate(mean, mean - spread, mean + spread, int(known.size))
+        return Interval(mean, mean - spread, mean + spread, int(known.size))
     interval = bootstrap(
         (known,), np.mean, confidence_level=CONFIDENCE, n_resamples=2000, rng=0
     ).confidence_interval
-    return Estimate(mean, float(interval.low), float(interval.high), int(known.size))
+    return Interval(mean, float(interval.low), float(interval.high), int(known.size))
 
 
 def header() -> tuple[str, ...]:

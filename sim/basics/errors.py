@@ -2,9 +2,35 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+Step = str | int
+"""A key, or the number of a list's entry from 0."""
+
 
 class InputError(ValueError):
-    """Something the user gave is wrong; the message is one line and names the cure."""
+    """Something the user gave is wrong.
+
+    Parameters
+    ----------
+    message : str
+        One line that names the cure. It begins with the place, if there is one:
+        ``mount.position = (0, 9): must be 3 finite numbers``.
+    at : tuple of str and int
+        The place as data, from what was being made inwards: ``("mount", "position")``.
+    """
+
+    def __init__(self, message: str, at: tuple[Step, ...] = ()) -> None:
+        super().__init__(message)
+        self.at = at
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (*self.args, self.at)
+
+    def inside(self, *steps: Step) -> InputError:
+        """Return it as an error of what holds this: at ``steps`` and then where it was."""
+        outer = ".".join(str(step) for step in steps)
+        return InputError(f"{outer}{'.' if self.at else ': '}{self}", (*steps, *self.at))
 
 
 class SimulationError(RuntimeError):

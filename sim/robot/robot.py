@@ -12,7 +12,7 @@ from ..basics.errors import InputError
 from ..basics.frames import Vector
 from ..basics.registry import did_you_mean
 from ..basics.validators import shown
-from ..urdf.read import Rigid, lump, mirrored, read_robot
+from ..urdf.read import Rigid, left_right_swapped, lump, read_robot
 from ..urdf.shapes import Solid, robot_outline, robot_solids
 from ..world.outline import Outline, disc
 from .shipped import BASE_RADIUS, CAMERA
@@ -101,7 +101,7 @@ def robot_of(parameters: RobotParameters, hand: str, coupling: str) -> Robot:
             files("cowalk.sim.robot.models").joinpath(name).read_text("utf-8")
         )
         if hand == "right":
-            root = mirrored(root)
+            root = left_right_swapped(root)
     else:
         root = read_robot(Path(parameters.urdf))
         _absolute_meshes(root, Path(parameters.urdf).resolve().parent)

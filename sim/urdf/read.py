@@ -182,7 +182,7 @@ def _vector(array: Array) -> Vector:
     return x, y, z
 
 
-def mirrored(root: ElementTree.Element) -> ElementTree.Element:
+def left_right_swapped(root: ElementTree.Element) -> ElementTree.Element:
     """Return a robot with left and right swapped (y to -y), for bodies of plain shapes."""
     copy = ElementTree.fromstring(ElementTree.tostring(root))
     for place in copy.iter("origin"):

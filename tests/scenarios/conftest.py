@@ -17,7 +17,7 @@ automation: never-yields
 MODELS = '''\
 import time
 import numpy as np
-from cowalk.agents.interfaces import Truth
+from cowalk.agents import Truth
 
 
 class Quiet:

@@ -72,7 +72,7 @@ def test_a_scenario_without_expectations_must_run_through(scenarios):
     models = textwrap.dedent(
         """
         import numpy as np
-        from cowalk.agents.interfaces import Truth
+        from cowalk.agents import Truth
 
         class TurnsToNan:
             def reset(self, rng, situation): pass

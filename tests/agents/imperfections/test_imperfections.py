@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from cowalk.agents import IMPERFECTIONS, Situation, Truth
+from cowalk.agents import IMPERFECTIONS, Truth
 from cowalk.agents.imperfections.delay import ReactionDelay
 from cowalk.agents.imperfections.fatigue import RATES, Fatigue
 from cowalk.agents.imperfections.force_limit import ForceLimit
@@ -16,6 +16,7 @@ from cowalk.agents.imperfections.gait import GaitRipple
 from cowalk.agents.imperfections.noise import SignalDependentNoise
 from cowalk.agents.imperfections.perception import PerceptionThreshold
 from cowalk.agents.imperfections.tremor import Tremor
+from cowalk.sim import Situation
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.motion import TwistBounds
 from cowalk.sim.basics.path import Path

@@ -50,7 +50,7 @@ def test_the_paper_observer_reads_the_papers_two_first_steps():
 
 MINE = """
 import numpy as np
-from cowalk.estimation.observers import Estimate
+from cowalk.estimation import Estimate
 
 class Certain:
     def __init__(self, share: float = 0.5): self.share = share

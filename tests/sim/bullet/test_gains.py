@@ -104,6 +104,7 @@ def test_one_mass_meets_the_closed_form(stiffness):
     linear.count, linear.step, linear.body = 6, step, BodyParameters()
     linear._inverse = np.eye(6) / mass
     linear._drive, linear._legs, linear._still = np.zeros((6, 6)), np.zeros((3, 6)), np.eye(3, 6)
+    linear._ridden = np.zeros((3, 3))  # the base stands still
     own = np.eye(6)[3:5]
     linear._hands = [(own, own, np.eye(6)[5])]
     limit = (4.0 - step**2 * stiffness / mass) * mass / (2.0 * step)

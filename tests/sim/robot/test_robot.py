@@ -1,4 +1,4 @@
-"""Robots as one rigid body, mirrored, and from a user's own file."""
+"""Robots as one rigid body, left and right swapped, and from a user's own file."""
 
 import re
 from xml.etree import ElementTree
@@ -15,7 +15,7 @@ from cowalk.sim.body.human import human_body
 from cowalk.sim.bullet.plant import BulletPlant
 from cowalk.sim.engine.engine import connect, disconnect, engine, load
 from cowalk.sim.robot.robot import RobotParameters, robot_of
-from cowalk.sim.urdf.read import link_frames, lump, mirrored
+from cowalk.sim.urdf.read import left_right_swapped, link_frames, lump
 from cowalk.sim.world.world import World
 
 OWN = """<robot name="own">
@@ -53,7 +53,7 @@ def test_a_tree_as_one_rigid_body():
 
 def test_mirroring_twice_changes_nothing():
     root = ElementTree.fromstring(OWN)
-    once, twice = lump(mirrored(root)), lump(mirrored(mirrored(root)))
+    once, twice = lump(left_right_swapped(root)), lump(left_right_swapped(left_right_swapped(root)))
     assert once.places["grip"] == pytest.approx((0.2, 0.3, 1.0))
     assert twice.places["grip"] == pytest.approx(lump(root).places["grip"])
     assert once.yaw_inertia == pytest.approx(twice.yaw_inertia)

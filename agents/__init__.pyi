@@ -1,0 +1,11 @@
+from .automations.negotiation import NegotiatingAutomation as NegotiatingAutomation
+from .automations.planner.settings import NegotiationSettings as NegotiationSettings
+from .basics.protocols import Automation as Automation
+from .basics.protocols import Belief as Belief
+from .basics.protocols import Human as Human
+from .basics.protocols import Truth as Truth
+from .checks.conformance import check_automation as check_automation
+from .checks.conformance import check_human as check_human
+from .registry import AUTOMATIONS as AUTOMATIONS
+from .registry import HUMANS as HUMANS
+from .registry import IMPERFECTIONS as IMPERFECTIONS

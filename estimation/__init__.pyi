@@ -1,0 +1,12 @@
+from .observers.paper import PaperObserver as PaperObserver
+from .observers.protocol import Estimate as Estimate
+from .observers.protocol import ForceReading as ForceReading
+from .observers.protocol import Observer as Observer
+from .registry import OBSERVERS as OBSERVERS
+from .registry import SMOOTHERS as SMOOTHERS
+from .scores.error import bias as bias
+from .scores.error import lag as lag
+from .scores.error import rmse as rmse
+from .smoothers.kalman import KalmanSmoother as KalmanSmoother
+from .smoothers.moving_average import MovingAverage as MovingAverage
+from .smoothers.protocol import Smoother as Smoother

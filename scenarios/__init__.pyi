@@ -1,0 +1,9 @@
+from .files.loading import library as library
+from .files.loading import load as load
+from .files.schema import Scenario as Scenario
+from .people.population import load_population as load_population
+from .running.build import build_agents as build_agents
+from .running.build import make_env as make_env
+from .running.runner import run as run
+from .trace.result import RunResult as RunResult
+from .trace.trace import Trace as Trace
