@@ -29,13 +29,17 @@ HUMANS: Registry[Human] = Registry(
 IMPERFECTIONS: Registry[Imperfection] = Registry(
     "imperfection",
     {
-        "reaction-delay": "cowalk.agents.imperfections.delay:ReactionDelay",
-        "perception-threshold": "cowalk.agents.imperfections.perception:PerceptionThreshold",
-        "signal-dependent-noise": "cowalk.agents.imperfections.noise:SignalDependentNoise",
+        "reaction-delay": "cowalk.agents.imperfections.reaction_delay:ReactionDelay",
+        "perception-threshold": (
+            "cowalk.agents.imperfections.perception_threshold:PerceptionThreshold"
+        ),
+        "signal-dependent-noise": (
+            "cowalk.agents.imperfections.signal_dependent_noise:SignalDependentNoise"
+        ),
         "tremor": "cowalk.agents.imperfections.tremor:Tremor",
         "fatigue": "cowalk.agents.imperfections.fatigue:Fatigue",
         "force-limit": "cowalk.agents.imperfections.force_limit:ForceLimit",
-        "gait-ripple": "cowalk.agents.imperfections.gait:GaitRipple",
+        "gait-ripple": "cowalk.agents.imperfections.gait_ripple:GaitRipple",
     },
     "cowalk.imperfections",
 )

@@ -134,7 +134,7 @@ def show(
     """Draw what a human model does, or an imperfection alone on a prescribed push."""
     from cowalk.sim.basics.errors import InputError
 
-    from ..studies.pictures import show_human, show_imperfections
+    from ..studies.human_pictures import show_human, show_imperfections
 
     wanted = imperfection or []
     if not name and not wanted:
@@ -174,7 +174,14 @@ def table(
 ) -> int:
     """Compare every human with every automation, with 95 % bootstrap intervals."""
     from ..files.loading import load
-    from ..studies.humans import NOTE, compare_humans, header, marked_document, row, write_table
+    from ..studies.human_table import (
+        NOTE,
+        compare_humans,
+        header,
+        marked_document,
+        row,
+        write_table,
+    )
 
     loaded = load(scenario, [f"plant={plant}"] if plant else [])
     if write is not None:

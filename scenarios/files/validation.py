@@ -109,7 +109,7 @@ def _message(details: ErrorDetails, path: KeyPath, at: KeyPath, model: type[Base
     cure = _cure(details)
     if kind == "tuple_type" and (length := _length(model, path)):
         cure = cure.replace("a list", f"a list of {length}", 1)
-    return f"{key}{shown(value)}: {cure}"
+    return f"{key}{equals(value)}: {cure}"
 
 
 def _blamed(details: ErrorDetails) -> KeyPath:
@@ -120,7 +120,7 @@ def _blamed(details: ErrorDetails) -> KeyPath:
     return (first,) if first in details["input"] else ()
 
 
-def shown(value: Any) -> str:
+def equals(value: Any) -> str:
     """Return `` = value`` as YAML writes it, or nothing where that would be long."""
     text = json.dumps(value, ensure_ascii=False) if not isinstance(value, str) else repr(value)
     return f" = {text}" if len(text) <= 60 else ""

@@ -66,7 +66,7 @@ CURVES: dict[str, tuple[str, str, str]] = {
 """By entity: trace column, name in the legend, colour."""
 
 
-class Recording:
+class RerunLog:
     """A watcher that writes a recording for the Rerun viewer.
 
     Parameters

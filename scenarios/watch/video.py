@@ -27,7 +27,7 @@ from .video_frame import (
     PALE,
     VIEW,
     WIDTH,
-    Frame,
+    VideoFrame,
     draw_arrow,
     draw_band,
     draw_shadow,
@@ -79,7 +79,7 @@ class Video:
         """See `Watcher.start`."""
         self._every = max(1, round(scenario.rates.control / FRAMES_PER_SECOND))
         self._horizon = scenario.automation.negotiation.horizon
-        self._frame = Frame(
+        self._frame = VideoFrame(
             scenario.name,
             f"human {scenario.human.name}    automation {scenario.automation.name}    "
             f"plant {scenario.plant.name}    seed {scenario.seed}",
@@ -187,7 +187,7 @@ def _draw_force(
     draw_arrow(image, *camera.project([(*end[:2], height) for end in ends]))
 
 
-def _labels(frame: Frame, top: float) -> None:
+def _labels(frame: VideoFrame, top: float) -> None:
     """Write what stays the same from frame to frame."""
     frame.heading(top + 16, "the human's stubbornness")
     frame.key(top + 38, ((PALE, "true"), (HUMAN, "believed by the automation")))
@@ -199,7 +199,7 @@ def _labels(frame: Frame, top: float) -> None:
     frame.key(top + 236, ((FORCE, "force"), (HUMAN, "human's wish"), (AUTOMATION, "automation's")))
 
 
-def _gauges(frame: Frame, top: float, row: dict[str, float]) -> None:
+def _gauges(frame: VideoFrame, top: float, row: dict[str, float]) -> None:
     for line, dimension in enumerate(("v", "omega")):
         frame.gauge(
             top + 60 + 25 * line,

@@ -114,7 +114,7 @@ def draw_shadow(image: Image.Image, camera: Camera, outline: Array) -> None:
     image.paste("#101418", (int(left), int(top)), mask.filter(ImageFilter.GaussianBlur(soft)))
 
 
-class Frame:
+class VideoFrame:
     """A frame being composed.
 
     Parameters

@@ -67,7 +67,7 @@ def watchers(video: Path | None = None, recording: Path | None = None) -> list[W
     video : Path, optional
         ``.mp4``, see `cowalk.scenarios.watch.video.Video`.
     recording : Path, optional
-        ``.rrd``, see `cowalk.scenarios.watch.rerun_log.Recording`.
+        ``.rrd``, see `cowalk.scenarios.watch.rerun_log.RerunLog`.
 
     Raises
     ------
@@ -81,9 +81,9 @@ def watchers(video: Path | None = None, recording: Path | None = None) -> list[W
 
         found.append(Video(video))
     if recording is not None:
-        from .rerun_log import Recording
+        from .rerun_log import RerunLog
 
-        found.append(Recording(recording))
+        found.append(RerunLog(recording))
     return found
 
 

@@ -20,7 +20,7 @@ from .anthropometry import (
 )
 from .arm import Arm
 from .gait import step_frequency
-from .human import HumanBody
+from .human_body import HumanBody
 
 SKIN, HAIR, SHIRT, TROUSERS, SHOES = (
     "0.87 0.68 0.54 1",

@@ -15,7 +15,7 @@ from ..basics.validators import Range, require_ranges
 from .anthropometry import BodyParameters, yaw_inertia
 from .arm import end_torque
 from .gait import Gait
-from .human import HumanBody
+from .human_body import HumanBody
 
 RANGES: dict[str, Range] = {
     "stiffness": (0.0, 1e9, "N/m"),

@@ -7,7 +7,7 @@ from typing import Any
 
 from ..basics.frames import Vector
 from ..body.grip import Bushing, GripParameters
-from ..body.human import HumanBody
+from ..body.human_body import HumanBody
 from ..engine.engine import engine, force_on_parent
 from .chains import Base, Chain, Slab, State
 

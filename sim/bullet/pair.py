@@ -13,7 +13,7 @@ from ..basics.frames import Vector
 from ..basics.motion import Array
 from ..body.anthropometry import BodyParameters
 from ..body.grip import GripParameters
-from ..body.human import arm_outlines, eye, human_body, trunk_outline
+from ..body.human_body import arm_outlines, eye, human_body, trunk_outline
 from ..body.walker import WalkerParameters
 from ..engine.engine import connect, engine, free_with
 from ..robot.coupling import CouplingParameters, load_outline

@@ -18,7 +18,7 @@ import numpy as np
 from ..basics.motion import Array
 from ..body.anthropometry import yaw_inertia
 from ..body.grip import GripParameters
-from ..body.human import HumanBody
+from ..body.human_body import HumanBody
 from ..body.walker import WalkerParameters, legs_of
 from ..robot.drive import DriveParameters, slip_gains
 from ..urdf.read import Rigid

@@ -7,7 +7,7 @@ from typing import Any
 
 from ..basics.errors import InputError
 from ..basics.frames import Vector
-from ..engine.engine import Snapshot, engine, load
+from ..engine.engine import WorldState, engine, load
 from ..robot.drive import Command, DriveParameters
 from ..urdf.read import Rigid
 from .chains import State, free_body
@@ -204,7 +204,7 @@ class WheelBase:
     def save(self) -> Any:
         """See `Base.save`."""
         # Contacts carry what the solver learned in the last step; only the engine can save them.
-        return Snapshot(self._client), self._command.save(), self._turns, self._last
+        return WorldState(self._client), self._command.save(), self._turns, self._last
 
     def restore(self, saved: Any) -> None:
         """See `Base.restore`."""

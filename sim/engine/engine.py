@@ -152,7 +152,7 @@ def load(client: int, urdf: str, *, fixed: bool = True, flags: int = 0) -> int:
     return body
 
 
-class Snapshot:
+class WorldState:
     """State of everything in a client, kept by the engine for as long as this object lives."""
 
     def __init__(self, client: int) -> None:

@@ -31,7 +31,7 @@ _KINDS: dict[str, tuple[type, str]] = {
 
 
 @dataclass(frozen=True)
-class Arguments:
+class Configuration:
     """What `cowalk.sim.env.env.CowalkEnv` is made with; its docstring says what they are.
 
     Raises

@@ -23,10 +23,10 @@ from ..sensor.sensor import ForceSensor, Reading
 from ..world.contact import blocked_start
 from ..world.world import Corridor, World
 from .actions import Actions
-from .configuration import Arguments
+from .configuration import Configuration
 from .perception import Perception, observation_space
 from .reward import Reward
-from .snapshot import Saved, checked
+from .snapshot import Snapshot, matching
 
 STRAIGHT_CORRIDOR = World(path=Path(((0.0, 0.0), (20.0, 0.0))), corridor=Corridor(width=3.0))
 """The world of `parallel_env` without arguments: nothing in it, nothing to negotiate."""
@@ -105,7 +105,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
     ) -> None:
         sensor = sensor_preset(sensor) if isinstance(sensor, str) else sensor
         own = {} if plant_parameters is None else plant_parameters
-        self._arguments = given = Arguments(
+        self._configuration = given = Configuration(
             world, plant, own, rates, sensor, bounds, pace, duration, force_limit
         )
         self.world, self.rates, self.bounds, self.pace = world, rates, bounds, pace
@@ -239,7 +239,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
             {seat: dict(self._info) for seat in SEATS},
         )
 
-    def save(self) -> Saved:
+    def save(self) -> Snapshot:
         """Return the whole state within an episode, for `restore`: opaque, and never changed.
 
         Raises
@@ -250,9 +250,9 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self._require("save", opened=True)
         # Copied as one, so that what its parts share stays shared.
         own = copy.deepcopy({name: vars(self)[name] for name in _SAVED})
-        return Saved(self._arguments, self._plant.save(), own)
+        return Snapshot(self._configuration, self._plant.save(), own)
 
-    def restore(self, saved: Saved) -> dict[str, Observation]:
+    def restore(self, saved: Snapshot) -> dict[str, Observation]:
         """Go on from a saved state, bit for bit; return what is seen there.
 
         It may come from another environment that was made with the same arguments, ``render_mode``
@@ -267,7 +267,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         """
         if self._closed:
             raise SimulationError(CLOSED)
-        saved = checked(saved, self._arguments)
+        saved = matching(saved, self._configuration)
         self._plant.restore(saved.plant)
         self.__dict__.update(copy.deepcopy(dict(saved.own)))
         self._started = True

@@ -1,4 +1,4 @@
-"""A saved state of an environment, and why another one cannot go on from it."""
+"""Snapshots of an environment: a saved state, and why another one cannot go on from it."""
 
 from __future__ import annotations
 
@@ -7,18 +7,18 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from ..basics.errors import InputError
-from .configuration import Arguments
+from .configuration import Configuration
 
 CURE = "restore it into the environment that saved it, or one made with the same arguments"
 
 
 @dataclass(frozen=True)
-class Saved:
+class Snapshot:
     """What `CowalkEnv.save` gives: opaque to users.
 
     Attributes
     ----------
-    arguments : Arguments
+    configuration : Configuration
         With which the environment was made.
     plant : object
         What the plant saved.
@@ -26,12 +26,12 @@ class Saved:
         What of the environment itself changes within an episode.
     """
 
-    arguments: Arguments
+    configuration: Configuration
     plant: Any
     own: Mapping[str, Any]
 
 
-def checked(saved: Any, arguments: Arguments) -> Saved:
+def matching(saved: Any, configuration: Configuration) -> Snapshot:
     """Return a saved state that an environment made with some arguments can go on from.
 
     Raises
@@ -39,11 +39,11 @@ def checked(saved: Any, arguments: Arguments) -> Saved:
     InputError
         If it is none, or that of an environment made with another argument, which is named.
     """
-    if not isinstance(saved, Saved):
+    if not isinstance(saved, Snapshot):
         kind = type(saved).__name__
         raise InputError(f"restore takes what save of an environment gave, not a {kind}")
-    for item in fields(Arguments):
-        if not _same(getattr(saved.arguments, item.name), getattr(arguments, item.name)):
+    for item in fields(Configuration):
+        if not _same(getattr(saved.configuration, item.name), getattr(configuration, item.name)):
             raise InputError(f"restore: this state was saved with another {item.name}; {CURE}")
     return saved
 

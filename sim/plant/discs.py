@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..body.anthropometry import EYE_HEIGHT, BodyParameters
-from ..robot.shipped import BASE_RADIUS, CAMERA
+from ..robot.shipped import BASE_RADIUS, CAMERA_PLACE
 from ..world.outline import Bodies, disc
 
 HUMAN_RADIUS = 0.22
@@ -11,7 +11,7 @@ HUMAN_RADIUS = 0.22
 
 PLAIN_BODIES = Bodies(
     {"base": disc(BASE_RADIUS), "human": disc(HUMAN_RADIUS)},
-    {"automation": CAMERA, "human": (0.0, 0.0, EYE_HEIGHT * BodyParameters.height)},
+    {"automation": CAMERA_PLACE, "human": (0.0, 0.0, EYE_HEIGHT * BodyParameters.height)},
 )
 """Two discs, for whoever knows nothing more of the bodies."""
 

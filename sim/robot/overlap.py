@@ -13,8 +13,8 @@ from ..basics.errors import InputError
 from ..basics.frames import Vector
 from ..basics.motion import Array
 from ..body.anthropometry import ANKLE_HEIGHT, HALF_HIPS, TRUNK_DEPTH, BodyParameters
-from ..body.human import trunk_outline
-from ..urdf.shapes import Solid
+from ..body.human_body import trunk_outline
+from ..urdf.solids import Solid
 from ..world.outline import Outline, across, hull
 
 TOLERANCE = 0.02

@@ -13,9 +13,9 @@ from ..basics.frames import Vector
 from ..basics.registry import did_you_mean
 from ..basics.validators import shown
 from ..urdf.read import Rigid, left_right_swapped, lump, read_robot
-from ..urdf.shapes import Solid, robot_outline, robot_solids
+from ..urdf.solids import Solid, robot_outline, robot_solids
 from ..world.outline import Outline, disc
-from .shipped import BASE_RADIUS, CAMERA
+from .shipped import BASE_RADIUS, CAMERA_PLACE
 
 HANDLES_APART = 0.44
 """Distance of the two hands on one handle bar, m (inferred: shoulder breadth)."""
@@ -110,7 +110,7 @@ def robot_of(parameters: RobotParameters, hand: str, coupling: str) -> Robot:
     handles = two_hands(handle) if hand == "both" else (handle,)
     # A robot without any shape is taken for one as large as that which ships.
     solids = robot_solids(root)
-    outline, top = (disc(BASE_RADIUS), CAMERA[2]) if not solids else robot_outline(solids)
+    outline, top = (disc(BASE_RADIUS), CAMERA_PLACE[2]) if not solids else robot_outline(solids)
     camera = (outline.box[1], 0.0, top)
     if parameters.camera != RobotParameters.camera or parameters.camera in rigid.places:
         camera = _place_of(rigid, "camera", parameters.camera)

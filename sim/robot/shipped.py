@@ -5,5 +5,5 @@ from __future__ import annotations
 BASE_RADIUS = 0.28
 """Radius of the disc that bounds the mobile base that ships, m."""
 
-CAMERA = (0.12, 0.0, 1.17)
+CAMERA_PLACE = (0.12, 0.0, 1.17)
 """Where the mobile base that ships sees from, base axes, m (inferred)."""

@@ -84,7 +84,7 @@ def number(element: Element, attribute: str) -> float:
     return float(numbers(element, attribute)[0])
 
 
-def check(root: Element) -> None:
+def check_urdf(root: Element) -> None:
     """Refuse a robot that cannot be read.
 
     Raises

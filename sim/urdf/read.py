@@ -12,7 +12,7 @@ import numpy as np
 from ..basics.errors import InputError
 from ..basics.frames import Frame, Vector, rotation, within
 from ..basics.motion import Array
-from .accepted import check, number, numbers
+from .accepted import check_urdf, number, numbers
 
 COARSE = 1.5
 """By how much one moment of inertia may be more than the other two together, which no body has:
@@ -49,7 +49,7 @@ def read_robot(path: Path) -> ElementTree.Element:
     Raises
     ------
     InputError
-        If there is no such file, or it is no URDF, or `check` refuses it.
+        If there is no such file, or it is no URDF, or `check_urdf` refuses it.
     """
     try:
         root = ElementTree.parse(path).getroot()
@@ -59,7 +59,7 @@ def read_robot(path: Path) -> ElementTree.Element:
         raise InputError(f"robot.urdf = {str(path)!r}: no XML: {error}") from error
     if root.tag != "robot" or root.find("link") is None:
         raise InputError(f"robot.urdf = {str(path)!r}: no <robot> with a <link> in it")
-    check(root)
+    check_urdf(root)
     return root
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..basics.frames import Vector
-from ..body.human import HumanBody
+from ..body.human_body import HumanBody
 from ..robot.coupling import CouplingParameters
 
 

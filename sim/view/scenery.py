@@ -13,9 +13,9 @@ from .floor import Floor, floor_areas, lay_floor
 Colour = tuple[float, float, float, float]
 Vector = tuple[float, float, float]
 
-WALL_HEIGHT = 0.25
+DRAWN_WALL_HEIGHT = 0.25
 """m; low, so that one looks over the near wall."""
-CROSS_WALL_HEIGHT = 1.1
+DRAWN_CROSS_WALL_HEIGHT = 1.1
 """Of walls across the corridor, m: a doorway must look like one, and be looked over."""
 WALL_PIECE = 2.0
 """Walls are built in pieces, m: what a triangle costs to render is the rectangle around it."""
@@ -53,7 +53,7 @@ class Scenery:
         for wall in walls(world, MARGIN):
             across = wall.half_length < wall.half_width or wall.yaw != 0.0
             for piece in pieces(wall, WALL_PIECE):
-                self._block(piece, CROSS_WALL_HEIGHT if across else WALL_HEIGHT, WALL)
+                self._block(piece, DRAWN_CROSS_WALL_HEIGHT if across else DRAWN_WALL_HEIGHT, WALL)
         for item in world.furniture:
             self._furnish(furniture(item), item.top)
         for thing in world.obstacles:

@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from cowalk.agents import IMPERFECTIONS, Truth
-from cowalk.agents.imperfections.delay import ReactionDelay
 from cowalk.agents.imperfections.fatigue import RATES, Fatigue
 from cowalk.agents.imperfections.force_limit import ForceLimit
-from cowalk.agents.imperfections.gait import GaitRipple
-from cowalk.agents.imperfections.noise import SignalDependentNoise
-from cowalk.agents.imperfections.perception import PerceptionThreshold
+from cowalk.agents.imperfections.gait_ripple import GaitRipple
+from cowalk.agents.imperfections.perception_threshold import PerceptionThreshold
+from cowalk.agents.imperfections.reaction_delay import ReactionDelay
+from cowalk.agents.imperfections.signal_dependent_noise import SignalDependentNoise
 from cowalk.agents.imperfections.tremor import Tremor
 from cowalk.sim import Situation
 from cowalk.sim.basics.errors import InputError

@@ -14,8 +14,8 @@ from cowalk.scenarios.files.loading import load
 from cowalk.scenarios.files.schema import HumanComponent
 from cowalk.scenarios.people.population import load_population
 from cowalk.scenarios.people.responses import answer, fixed_points, push, settled_stubbornness
-from cowalk.scenarios.studies import pictures as human_pictures
-from cowalk.scenarios.studies.humans import compare_humans, estimate, row, write_table
+from cowalk.scenarios.studies import human_pictures
+from cowalk.scenarios.studies.human_table import compare_humans, estimate, row, write_table
 from cowalk.sim.basics.errors import InputError
 
 NONE = {"collision": 0, "grip lost": 0}
@@ -259,7 +259,7 @@ def test_the_table_says_which_runs_ended_early(cowalk):
 
 def test_the_table_is_printed_with_its_note_and_as_json(cowalk, scenario_file, monkeypatch):
     few = partial(compare_humans, jobs=1, humans=("steady",))
-    monkeypatch.setattr("cowalk.scenarios.studies.humans.compare_humans", few)
+    monkeypatch.setattr("cowalk.scenarios.studies.human_table.compare_humans", few)
     file = scenario_file(("duration: 3.0", "duration: 1.0"))
     code, out, _ = cowalk("humans", "table", file, "-n", "2", "--json")
     assert code == 0

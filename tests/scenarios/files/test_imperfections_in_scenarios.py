@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import yaml
 
-from cowalk.agents.imperfections.delay import ReactionDelay
+from cowalk.agents.imperfections.reaction_delay import ReactionDelay
 from cowalk.agents.imperfections.tremor import Tremor
 from cowalk.scenarios.files.loading import faults, load, to_yaml
 from cowalk.scenarios.running.build import build_agents

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from cowalk.scenarios import load, run
-from cowalk.scenarios.watch.rerun_log import CURVES, Recording
+from cowalk.scenarios.watch.rerun_log import CURVES, RerunLog
 from cowalk.sim.basics.errors import InputError
 
 DURATION = "duration=1.0"
@@ -40,7 +40,7 @@ def recorded(rrd, file):
 def recording(request, rrd, tmp_path_factory):
     file = tmp_path_factory.mktemp("recording") / "deep" / "run.rrd"
     scenario = load("puddle", [DURATION, f"plant={request.param}"])
-    trace = run(scenario, watchers=[Recording(file)]).trace
+    trace = run(scenario, watchers=[RerunLog(file)]).trace
     assert trace.values.tobytes() == run(scenario).trace.values.tobytes()
     return (trace, *recorded(rrd, file))
 
@@ -90,7 +90,7 @@ def test_force_and_wishes_are_drawn_every_step(recording):
 
 def test_a_run_that_dies_midway_leaves_a_recording_of_it(rrd, folder, scenario_file):
     scenario = load(str(scenario_file()), ["human=my_models:TurnsToNan"])
-    result = run(scenario, watchers=[Recording(folder / "a.rrd")])
+    result = run(scenario, watchers=[RerunLog(folder / "a.rrd")])
     moving, _ = recorded(rrd, folder / "a.rrd")
     assert len(moving["/force/left"]) == len(result.trace) == 21
 
@@ -98,9 +98,9 @@ def test_a_run_that_dies_midway_leaves_a_recording_of_it(rrd, folder, scenario_f
 def test_without_rerun_one_line_says_what_to_install(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "rerun", None)
     with pytest.raises(InputError, match=r"--rerun needs .*: pip install 'cowalk\[rerun\]'"):
-        Recording(tmp_path / "a.rrd")
+        RerunLog(tmp_path / "a.rrd")
 
 
 def test_another_ending_is_refused(tmp_path):
     with pytest.raises(InputError, match=r"--rerun .*run.txt: the name must end in .rrd"):
-        Recording(tmp_path / "run.txt")
+        RerunLog(tmp_path / "run.txt")

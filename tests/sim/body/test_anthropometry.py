@@ -16,7 +16,7 @@ from cowalk.sim.body.anthropometry import (
     yaw_inertia,
 )
 from cowalk.sim.body.arm import ELBOW_FREE, SHOULDER_FREE, arm_of, links
-from cowalk.sim.body.human import human_body
+from cowalk.sim.body.human_body import human_body
 
 bodies = st.builds(BodyParameters, st.floats(1.5, 2.0), st.floats(40.0, 120.0))
 

@@ -12,7 +12,7 @@ from cowalk.sim.basics.path import Path
 from cowalk.sim.basics.rates import Rates
 from cowalk.sim.body.anthropometry import BodyParameters
 from cowalk.sim.body.grip import GRIPS
-from cowalk.sim.body.human import human_body
+from cowalk.sim.body.human_body import human_body
 from cowalk.sim.bullet.plant import BulletPlant
 from cowalk.sim.engine.engine import connect, engine
 from cowalk.sim.robot.drive import DriveParameters

@@ -12,13 +12,13 @@ from hypothesis import strategies as st
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.body.anthropometry import BodyParameters
 from cowalk.sim.body.grip import GripParameters
-from cowalk.sim.body.human import human_body
+from cowalk.sim.body.human_body import human_body
 from cowalk.sim.bullet.pair import Pair, PairParameters
 from cowalk.sim.robot.coupling import CouplingParameters
 from cowalk.sim.robot.drive import DriveParameters
 from cowalk.sim.robot.overlap import TOLERANCE, refuse_overlap
 from cowalk.sim.robot.robot import RobotParameters, robot_of, two_hands
-from cowalk.sim.urdf.shapes import Solid
+from cowalk.sim.urdf.solids import Solid
 
 ROBOT = """<robot name="own"><link name="frame"><inertial><mass value="20"/>
 <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>{shapes}</link>

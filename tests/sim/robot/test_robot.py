@@ -11,7 +11,7 @@ from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.path import Path
 from cowalk.sim.basics.rates import Rates
 from cowalk.sim.body.figure import BodyParameters, figure_urdf
-from cowalk.sim.body.human import human_body
+from cowalk.sim.body.human_body import human_body
 from cowalk.sim.bullet.plant import BulletPlant
 from cowalk.sim.engine.engine import connect, disconnect, engine, load
 from cowalk.sim.robot.robot import RobotParameters, robot_of

@@ -14,11 +14,11 @@ from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.path import Path
 from cowalk.sim.basics.seats import SEATS
 from cowalk.sim.body.anthropometry import BodyParameters
-from cowalk.sim.body.human import trunk_outline
+from cowalk.sim.body.human_body import trunk_outline
 from cowalk.sim.bullet.distances import EngineClearance
 from cowalk.sim.plant.registry import PLANTS
 from cowalk.sim.robot.robot import RobotParameters, robot_of
-from cowalk.sim.urdf.shapes import robot_outline, robot_solids
+from cowalk.sim.urdf.solids import robot_outline, robot_solids
 from cowalk.sim.world.footprint import corners, furniture
 from cowalk.sim.world.outline import across, disc, hull, rectangle
 from cowalk.sim.world.world import Corridor, Furniture, Obstacle, Pedestrian, Wall, World

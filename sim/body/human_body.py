@@ -13,8 +13,8 @@ from .arm import ELBOW_RANGE, SHOULDER_RANGE, Arm, arm_of
 
 BESIDE = (0.25, 0.15)
 """Where a single hand rests, ahead of its shoulder and outwards, m: at 1.75 m and a handle at
-`USUAL_HEIGHT`; others bend their elbow as much (inferred: led by hand)."""
-USUAL_HEIGHT = 1.04
+`USUAL_HANDLE_HEIGHT`; others bend their elbow as much (inferred: led by hand)."""
+USUAL_HANDLE_HEIGHT = 1.04
 ARM_RADIUS = 0.04
 """m (inferred)."""
 RELAXED_ELBOW = -1.9
@@ -127,7 +127,7 @@ def human_body(parameters: BodyParameters, handles: tuple[Vector, ...]) -> Human
         place = (handles[0][0] - ahead, middle, 0.0)
     else:
         (arm,) = arms
-        usual = arm_of(BodyParameters(), parameters.hand, USUAL_HEIGHT)
+        usual = arm_of(BodyParameters(), parameters.hand, USUAL_HANDLE_HEIGHT)
         _, bend = usual.angles(_at(usual, 1.0))
         x, y = _at(arm, arm.span(bend) / usual.span(bend))
         place = (handles[0][0] - x, handles[0][1] - y, 0.0)

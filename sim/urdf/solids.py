@@ -63,7 +63,8 @@ def robot_solids(root: ElementTree.Element) -> tuple[Solid, ...]:
     Parameters
     ----------
     root : Element
-        Of a URDF that `cowalk.sim.urdf.accepted.check` took, mesh files given by absolute paths.
+        Of a URDF that `cowalk.sim.urdf.accepted.check_urdf` took, mesh files given by absolute
+        paths.
 
     Raises
     ------
