@@ -2,6 +2,7 @@
 
 import importlib.util
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -10,7 +11,10 @@ ROOT = Path(__file__).parent.parent
 _SPEC = importlib.util.spec_from_file_location("build", ROOT / "docs" / "build.py")
 build = importlib.util.module_from_spec(_SPEC)
 _SPEC.loader.exec_module(build)
+PARTS = ("sim", "estimation", "agents", "scenarios")
 PAGES = [*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")]
+CURRENT = [page for page in PAGES if page.name != "CHANGELOG.md"]
+"""Pages that speak of what is there; the list of changes also names what is gone."""
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
@@ -18,6 +22,13 @@ def test_links_lead_to_files_that_exist(page):
     for target in re.findall(r"\]\(([^)#]+?)(?:#[^)]*)?\)", page.read_text()):
         if "://" not in target:
             assert (page.parent / target).exists(), target
+
+
+@pytest.mark.parametrize("page", CURRENT, ids=lambda page: str(page.relative_to(ROOT)))
+def test_files_and_folders_that_a_page_names_are_there(page):
+    tops = "|".join((*PARTS, "tests", "benchmarks", "docs"))
+    named = re.findall(rf"`((?:{tops})/[\w/.-]*)`", page.read_text())
+    assert not [name for name in named if not (ROOT / name).exists()]
 
 
 def quoted(page, name):
@@ -62,3 +73,30 @@ def test_the_readmes_own_human_runs(tmp_path, monkeypatch):
 def test_the_readmes_python_runs():
     (code,) = [block for block in python_of("README.md") if "make_env" in block]
     exec(compile(code, "README.md", "exec"), {})
+
+
+def dotted_names():
+    """Yield every full name of ours in pages and code, with the file that holds it."""
+    code = [file for part in PARTS for file in (ROOT / part).rglob("*.py")]
+    for file in [*CURRENT, *code]:
+        for name in re.findall(rf"\bcowalk\.(?:{'|'.join(PARTS)})(?:\.\w+)+", file.read_text()):
+            yield name, file.relative_to(ROOT)
+
+
+def test_full_names_in_pages_and_code_lead_somewhere():
+    lost = {name: str(file) for name, file in dotted_names() if not leads_somewhere(name)}
+    assert not lost
+
+
+@cache
+def leads_somewhere(name):
+    try:
+        importlib.import_module(name)
+    except ImportError:
+        owner, _, last = name.rpartition(".")
+        *_, part = owner.split(".")
+        if part[:1].isupper():  # a member of a class
+            module, _, part = owner.rpartition(".")
+            return hasattr(getattr(importlib.import_module(module), part), last)
+        return hasattr(importlib.import_module(owner), last)
+    return True
