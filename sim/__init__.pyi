@@ -8,6 +8,7 @@ from .basics.registry import Registry as Registry
 from .basics.situation import Situation as Situation
 from .env.env import CowalkEnv as CowalkEnv
 from .env.env import parallel_env as parallel_env
+from .env.reward import RewardParameters as RewardParameters
 from .plant.protocol import Plant as Plant
 from .plant.protocol import PlantState as PlantState
 from .plant.registry import PLANTS as PLANTS

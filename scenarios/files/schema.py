@@ -12,6 +12,7 @@ from cowalk.sim.basics.motion import TwistBounds
 from cowalk.sim.basics.rates import Rates
 from cowalk.sim.basics.validators import require_range
 from cowalk.sim.env.configuration import RANGES
+from cowalk.sim.env.reward import RewardParameters
 from cowalk.sim.sensor.parameters import SensorParameters
 from cowalk.sim.world.world import World
 
@@ -76,6 +77,7 @@ class Scenario(BaseModel):
     sensor: SensorParameters = SensorParameters()
     bounds: TwistBounds = TwistBounds()
     force_limit: Annotated[float, _within("force_limit")] = 30.0
+    reward: RewardParameters = RewardParameters()
     human: HumanComponent
     automation: AutomationComponent
     expect: dict[str, str] = Field(default_factory=dict)

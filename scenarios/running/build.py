@@ -38,6 +38,7 @@ def make_env(scenario: str | Scenario, render_mode: str | None = None) -> Cowalk
         pace=chosen.pace,
         duration=chosen.duration,
         force_limit=chosen.force_limit,
+        reward=chosen.reward,
         render_mode=render_mode,
     )
 

@@ -12,6 +12,7 @@ from ..basics.rates import Rates
 from ..basics.validators import Range, require_ranges, shown
 from ..sensor.parameters import SensorParameters
 from ..world.world import World
+from .reward import RewardParameters
 
 RANGES: dict[str, Range] = {
     "pace": (0.01, 5.0, "m/s"),
@@ -49,6 +50,7 @@ class Configuration:
     pace: float
     duration: float
     force_limit: float
+    reward: RewardParameters = RewardParameters()
 
     def __post_init__(self) -> None:
         for name, (kind, words) in _KINDS.items():

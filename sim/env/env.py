@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+from collections.abc import Mapping
 from typing import Any, ClassVar
 
 import numpy as np
@@ -25,14 +26,24 @@ from ..world.world import Corridor, World
 from .actions import Actions
 from .configuration import Configuration
 from .perception import Perception, observation_space
-from .reward import Reward
+from .reward import NO_TERMS, Reward, RewardParameters, reward_parameters
 from .snapshot import Snapshot, matching
 
 STRAIGHT_CORRIDOR = World(path=Path(((0.0, 0.0), (20.0, 0.0))), corridor=Corridor(width=3.0))
 """The world of `parallel_env` without arguments: nothing in it, nothing to negotiate."""
 
 _ENDS = ("goal", "collision", "grip_lost")
-_SAVED = ("agents", "_step_count", "_sensor", "_generator", "_state", "_reading", "_info")
+_SAVED = (
+    "agents",
+    "applied",
+    "_step_count",
+    "_sensor",
+    "_generator",
+    "_state",
+    "_reading",
+    "_info",
+    "_terms",
+)
 """What of an environment changes within an episode, beside its plant."""
 
 
@@ -74,6 +85,8 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
     force_limit : float
         Bound of the human's action, N. People communicate with up to 30 N
         (s41598-024-53991-4).
+    reward : RewardParameters or mapping
+        What the seats are rewarded for; a mapping gives some of its values.
     render_mode : {None, "rgb_array", "human"}
 
     Raises
@@ -101,12 +114,22 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         pace: float = 0.8,
         duration: float = 30.0,
         force_limit: float = 30.0,
+        reward: RewardParameters | Mapping[str, Any] = RewardParameters(),
         render_mode: str | None = None,
     ) -> None:
         sensor = sensor_preset(sensor) if isinstance(sensor, str) else sensor
         own = {} if plant_parameters is None else plant_parameters
         self._configuration = given = Configuration(
-            world, plant, own, rates, sensor, bounds, pace, duration, force_limit
+            world,
+            plant,
+            own,
+            rates,
+            sensor,
+            bounds,
+            pace,
+            duration,
+            force_limit,
+            reward_parameters(reward),
         )
         self.world, self.rates, self.bounds, self.pace = world, rates, bounds, pace
         self.steps_per_episode = given.steps
@@ -122,7 +145,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self.action_spaces = self._actions.spaces
         self.observation_spaces = dict.fromkeys(SEATS, observation_space(rates.samples))
         self._distances = self._plant.distances(world)
-        self._reward = Reward(pace, rates.period)
+        self._reward = Reward(pace, rates.period, given.reward)
         self._perceive = Perception(world, self._plant.bodies, rates.samples)
         self._sensor = ForceSensor(sensor, rates.sensor)
         self._generator = np.random.default_rng()
@@ -130,6 +153,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         self._started = self._closed = False
         self.applied = (0.0, 0.0), (0.0, 0.0)
         """Force (N) and twist (m/s, rad/s) of the last step, clipped to the action spaces."""
+        self._terms = NO_TERMS
 
     def observation_space(self, agent: str) -> Dict:
         """Return the observation space of a seat: the same for both."""
@@ -177,6 +201,7 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         plant_rng, sensor_rng = self._generator.spawn(2)
         self.agents = list(SEATS)
         self._step_count = 0
+        self._terms = NO_TERMS
         self._started = True
         state = self._state = self._plant.reset(self.world, plant_rng)
         self._sensor.reset(sensor_rng, state.wrench_on_base[-1], state.mount)
@@ -224,7 +249,8 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         goal = self._relative[0] >= self.world.path.length
         ends = zip(_ENDS, (goal, collision, not state.grip_held), strict=True)
         self._info = {"clearance": clearance} | dict(ends)
-        rewards = self._reward(state, self._relative, clearance, collision, goal)
+        terms = self._reward.terms(state, self._relative, clearance, collision, goal)
+        self._terms, rewards = terms, self._reward.of_each_seat(terms)
         over = goal or collision or state.over
         late = not over and self._step_count >= self.steps_per_episode
         if over or late:
@@ -291,6 +317,15 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
         """All that it read, in its own axes too, with flags for what was lost or out of range."""
         self._require("sensor_reading")
         return self._reading
+
+    @property
+    def reward_terms(self) -> dict[str, dict[str, float]]:
+        """What each term added to each seat's reward in the last step; zeros after a reset.
+
+        They sum up to the reward but for rounding.
+        """
+        self._require("reward_terms")
+        return self._reward.by_name(self._terms)
 
     def render(self) -> np.ndarray | None:
         """Return a picture, uint8, shape (480, 640, 3), or show it in mode ``"human"``.
