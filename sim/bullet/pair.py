@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 
@@ -33,6 +33,24 @@ SETTLING = 0.25
 """Time in which the floor takes the load's weight, s: within 0.1 % after 0.05 s."""
 SOLVER_ITERATIONS = {"slip": 10, "wheels": 50}
 """By drive. Grips alone come within 0.01 N of what 200 iterations give, contacts take longer."""
+
+
+class KeptByEngine:
+    """Marks states that the engine of one pair keeps."""
+
+    def __reduce__(self) -> NoReturn:
+        """Refuse to be copied or pickled.
+
+        Raises
+        ------
+        InputError
+            Always.
+        """
+        raise InputError(
+            "with drive.kind = 'wheels' the engine keeps the state, so an environment cannot be "
+            "copied or pickled once it was reset: use save and restore in the environment itself, "
+            "or make another one"
+        )
 
 
 @dataclass(frozen=True)
@@ -109,7 +127,7 @@ class Pair:
             physicsClientId=client,
         )
         stands = drive.kind == "wheels"
-        self._owner = object() if stands else None
+        self._owner = KeptByEngine() if stands else None
         base = WheelBase if stands else SlipBase
         self.base: Base = base(client, robot.rigid, drive, step)
         # Heights settle on the floor's contacts; planar joints would take the weight off them.
@@ -156,7 +174,7 @@ class Pair:
     def save(self) -> Any:
         """Return what `restore` takes."""
         states = self.base_state, self.human_state, self.load_state
-        return states, self.base.save(), self.hands.save(), self._owner
+        return self._owner, states, self.base.save(), self.hands.save()
 
     def restore(self, saved: Any) -> None:
         """Go on from a saved state.
@@ -166,7 +184,7 @@ class Pair:
         InputError
             If it is kept by the engine, for another pair.
         """
-        states, drive, hands, owner = saved
+        owner, states, drive, hands = saved
         if owner is not self._owner:
             raise InputError(
                 "restore: with drive.kind = 'wheels' the engine keeps a state, "

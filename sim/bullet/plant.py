@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NoReturn
 from weakref import WeakSet
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..basics.errors import SimulationError
+from ..basics.errors import InputError, SimulationError
 from ..basics.motion import Array
 from ..basics.rates import Rates
 from ..basics.validators import parameters, require_flag
@@ -145,6 +145,19 @@ class BulletPlant:
         self._pair.restore(pair)
         self._walker.restore(walker)
         return self._state(np.zeros((self._rates.samples, 6)))
+
+    def __reduce__(self) -> NoReturn:
+        """Refuse to be copied or pickled: the engine's world would be shared.
+
+        Raises
+        ------
+        InputError
+            Always.
+        """
+        raise InputError(
+            "a plant in PyBullet cannot be copied or pickled: copy the environment that holds it, "
+            "or build another one and hand it what save gives"
+        )
 
     def step(
         self, twist_command: tuple[float, float], hand_force: tuple[float, float]

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Mapping
 from typing import Any, ClassVar
 
 import numpy as np
 from gymnasium.spaces import Box, Dict
-from pettingzoo import ParallelEnv
 
 from ..basics.errors import InputError, SimulationError
 from ..basics.motion import Array, TwistBounds
@@ -26,31 +24,16 @@ from ..world.world import Corridor, World
 from .actions import Actions
 from .configuration import Configuration
 from .perception import Perception, observation_space
+from .resumable import CLOSED, ResumableEnv
 from .reward import NO_TERMS, Reward, RewardParameters, reward_parameters
-from .snapshot import Snapshot, matching
 
 STRAIGHT_CORRIDOR = World(path=Path(((0.0, 0.0), (20.0, 0.0))), corridor=Corridor(width=3.0))
 """The world of `parallel_env` without arguments: nothing in it, nothing to negotiate."""
 
 _ENDS = ("goal", "collision", "grip_lost")
-_SAVED = (
-    "agents",
-    "applied",
-    "_step_count",
-    "_sensor",
-    "_generator",
-    "_state",
-    "_reading",
-    "_info",
-    "_terms",
-)
-"""What of an environment changes within an episode, beside its plant."""
 
 
-CLOSED = "this environment is closed: make a new one"
-
-
-class CowalkEnv(ParallelEnv[str, Observation, Array]):
+class CowalkEnv(ResumableEnv):
     """Human and automation walk one base; each is an agent, both act once a control step.
 
     The human's action is the intended hand force on the base ``[fx, fy]``, base axes, N; the
@@ -65,6 +48,8 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
     reaches the end of the path (``goal``), a body touches something solid (``collision``) or
     the plant, having lost its grip, asks for it (``grip_lost``). It is truncated after
     ``duration``. Infos hold what a scoring needs and no seat may see.
+
+    A copied or pickled environment is one of its own (see `cowalk.sim.env.resumable`).
 
     Parameters
     ----------
@@ -264,47 +249,6 @@ class CowalkEnv(ParallelEnv[str, Observation, Array]):
             dict.fromkeys(SEATS, late),
             {seat: dict(self._info) for seat in SEATS},
         )
-
-    def save(self) -> Snapshot:
-        """Return the whole state within an episode, for `restore`: opaque, and never changed.
-
-        Raises
-        ------
-        SimulationError
-            If there was no `reset` yet, or the environment is closed.
-        """
-        self._require("save", opened=True)
-        # Copied as one, so that what its parts share stays shared.
-        own = copy.deepcopy({name: vars(self)[name] for name in _SAVED})
-        return Snapshot(self._configuration, self._plant.save(), own)
-
-    def restore(self, saved: Snapshot) -> dict[str, Observation]:
-        """Go on from a saved state, bit for bit; return what is seen there.
-
-        It may come from another environment that was made with the same arguments, ``render_mode``
-        aside; not with the drive "wheels", where the engine keeps it.
-
-        Raises
-        ------
-        InputError
-            If it is the state of an environment that was made otherwise.
-        SimulationError
-            If this environment is closed.
-        """
-        if self._closed:
-            raise SimulationError(CLOSED)
-        saved = matching(saved, self._configuration)
-        self._plant.restore(saved.plant)
-        self.__dict__.update(copy.deepcopy(dict(saved.own)))
-        self._started = True
-        return self._observations()
-
-    def _require(self, what: str, opened: bool = False) -> None:
-        """Refuse what needs an episode, under way or over, and perhaps an open environment."""
-        if self._closed and opened:
-            raise SimulationError(CLOSED)
-        if not self._started:
-            raise SimulationError(f"no episode has begun: call reset before {what}")
 
     @property
     def measured_force(self) -> Array:
