@@ -1,1 +1,1 @@
-"""Automations, one file a strategy; `cowalk.agents.registry` finds them by name."""
+"""Automations: the strategies by which they concede, and the planner they negotiate with."""

@@ -1,1 +1,1 @@
-"""The protocols of both seats, and functions for one agent or a batch."""
+"""The protocols of both seats, and laws' functions for one agent or a batch."""

@@ -1,1 +1,1 @@
-"""Checks for classes of one's own."""
+"""Checks that find what is wrong with a class of one's own before it spoils a run."""

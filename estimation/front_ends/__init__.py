@@ -1,1 +1,1 @@
-"""What is made of the wrench at the sensor's rate, one file each."""
+"""Front ends: what cleans the measured wrench at the sensor's rate, one file each."""

@@ -1,1 +1,1 @@
-"""Where results are written."""
+"""What writes results to files."""

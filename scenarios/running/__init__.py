@@ -1,1 +1,1 @@
-"""A scenario built and run."""
+"""A scenario is built and run here, one control step after the other."""

@@ -1,1 +1,1 @@
-"""Who watches a run: films and recordings."""
+"""Who watches a run: films, and recordings for the Rerun viewer."""

@@ -1,1 +1,1 @@
-"""The PyBullet plant: two bodies joined by a constraint whose reaction is measured."""
+"""The PyBullet plant: two bodies joined by a constraint, whose reaction is measured."""

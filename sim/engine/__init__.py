@@ -1,1 +1,1 @@
-"""The only door to PyBullet."""
+"""The only door to PyBullet, opened when it is first asked for."""

@@ -1,1 +1,1 @@
-"""The PettingZoo environment: what it is made with, actions, perception, reward, states."""
+"""The PettingZoo environment: what it is made with, actions, perception, reward, snapshots."""

@@ -1,1 +1,1 @@
-"""The kinematic plant of the paper."""
+"""The paper's plant: a unicycle that executes its command exactly."""

@@ -1,1 +1,1 @@
-"""Robot files: read, judged, taken apart into shapes and chains."""
+"""Robot files: read, judged, taken apart into solids and chains."""

@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from ..basics.frames import Vector
 from ..engine.engine import engine
 from .camera import Camera
-from .shapes import Place, Quaternion, Shape, Vector
+from .shapes import Place, Quaternion, Shape
 
 LIGHT = (-2.0, 3.0, 6.0)
 """Where the light comes from, world axes."""

@@ -4,24 +4,20 @@ from __future__ import annotations
 
 import math
 
+from ..basics.frames import Vector
 from ..engine.engine import engine
 from ..world.footprint import Rectangle, furniture, pieces, walls
 from ..world.pedestrians import Pedestrian
 from ..world.world import World
 from .floor import Floor, floor_areas, lay_floor
+from .shapes import DRAWN_WALL_HEIGHT, PUDDLE, SOLID, WALL, Colour
 
-Colour = tuple[float, float, float, float]
-Vector = tuple[float, float, float]
-
-DRAWN_WALL_HEIGHT = 0.25
-"""m; low, so that one looks over the near wall."""
 DRAWN_CROSS_WALL_HEIGHT = 1.1
 """Of walls across the corridor, m: a doorway must look like one, and be looked over."""
 WALL_PIECE = 2.0
 """Walls are built in pieces, m: what a triangle costs to render is the rectangle around it."""
 MARGIN = 6.0
 """How far floor and walls reach beyond path and start, m."""
-WALL, PUDDLE, SOLID = (0.55, 0.57, 0.60, 1.0), (0.20, 0.50, 0.90, 1.0), (0.55, 0.42, 0.28, 1.0)
 TOP = (0.66, 0.53, 0.38, 1.0)
 SKIN, HAIR, TROUSERS = (0.80, 0.61, 0.47, 1.0), (0.15, 0.12, 0.10, 1.0), (0.25, 0.25, 0.28, 1.0)
 SHIRTS: tuple[Colour, ...] = (

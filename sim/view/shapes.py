@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from ..basics.frames import Vector
 from ..plant.discs import HUMAN_RADIUS
 from ..plant.protocol import PlantState
 from ..robot.shipped import BASE_RADIUS
 from ..world.footprint import furniture, walls
 from ..world.world import World
 
-Vector = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
 Colour = tuple[float, float, float, float]
 Place = tuple[Vector, Quaternion]
@@ -25,6 +25,8 @@ SHELL, SHIRT, SKIN, TROUSERS = (
     (0.20, 0.25, 0.40, 1.0),
 )
 WALL, PUDDLE, SOLID = (0.55, 0.57, 0.60, 1.0), (0.20, 0.50, 0.90, 1.0), (0.55, 0.42, 0.28, 1.0)
+DRAWN_WALL_HEIGHT = 0.25
+"""m; low, so that one looks over the near wall."""
 BEYOND = 3.0
 """How far walls reach beyond the path, m."""
 
@@ -79,7 +81,7 @@ def plain_figures(world: World) -> list[Shape]:
             )
         ),
     ]
-    stands = [("walls", box, 0.25, WALL) for box in walls(world, BEYOND)]
+    stands = [("walls", box, DRAWN_WALL_HEIGHT, WALL) for box in walls(world, BEYOND)]
     stands += [("furniture", furniture(item), item.top, SOLID) for item in world.furniture]
     for name, box, height, colour in stands:
         turn = (0.0, 0.0, math.sin(box.yaw / 2.0), math.cos(box.yaw / 2.0))

@@ -1,1 +1,1 @@
-"""What is negotiated: cost, wish, Pareto front, utility."""
+"""What is negotiated: the cost of an arc, a wish, the Pareto front, utility."""
