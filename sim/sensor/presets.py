@@ -6,9 +6,7 @@ from typing import Any
 
 from ..basics.errors import InputError
 from ..basics.registry import did_you_mean
-from ..basics.validators import (
-    parameters,
-)
+from ..basics.validators import parameters, require_text
 from .parameters import SensorParameters
 
 PRESETS: dict[str, tuple[str, SensorParameters]] = {
@@ -110,6 +108,7 @@ def sensor_preset(name: str, **changes: Any) -> SensorParameters:
     InputError
         If there is no such preset, or a change is refused.
     """
+    require_text("preset", name, "the name of a preset")
     if name == "none":
         return parameters("sensor", SensorParameters, changes)
     if name not in PRESETS:

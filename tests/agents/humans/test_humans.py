@@ -289,7 +289,7 @@ def test_stubbornness_settles_against_an_automation_that_yields_to_it(name, situ
         (lambda: EscalatingHuman(initial=(0.4, 0.0)), r"initial = .*must be above 0"),
         (lambda: SteadyHuman(level=0.5), r"level = 0\.5: must be two numbers, for v and for omega"),
         (lambda: SteadyHuman(level=(0.5,)), r"level = .*must be two numbers"),
-        (lambda: SteadyHuman(level=(np.nan, 0.5)), r"level = .*must lie in \[0, 1\]"),
+        (lambda: SteadyHuman(level=(np.nan, 0.5)), r"level = .*must lie between 0 and 1$"),
         (lambda: GameHuman(error_weights=1.0), r"error_weights = 1\.0: must be two numbers"),
         (lambda: EscalatingHuman(growth=-1.0), r"growth = -1\.0"),
         (lambda: SteadyHuman(gain=0.0), r"gain = 0\.0"),
