@@ -10,7 +10,7 @@ import math
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import fields
 from numbers import Integral, Real
-from typing import Any, TypeVar
+from typing import Any, TypeGuard, TypeVar
 
 import numpy as np
 
@@ -249,7 +249,7 @@ def _or_default(default: Any, within: Range) -> str:
     return "" if inside else f", or be {default:g}"
 
 
-def is_array(value: Any) -> bool:
+def is_array(value: Any) -> TypeGuard[np.ndarray]:
     """Return whether a value is an array of numbers, not an empty one."""
     return isinstance(value, np.ndarray) and value.dtype.kind in "iuf" and value.size > 0
 
