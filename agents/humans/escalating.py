@@ -14,6 +14,8 @@ from cowalk.sim.basics.validators import SHARE, Range, require, require_ranges
 from ..basics.elementwise import Elementwise, Value
 from .laws.demand import TIME, TOLERANCE, DemandingHuman, Pair
 
+LEAST = 1e-3
+"""Stubbornness that grows within a walk (inferred)."""
 GROWTH: Range = (0.0, 100.0, "")
 HOLD: Range = (0.0, 86400.0, "s")
 """A hundredfold a turn, and a day (inferred)."""
@@ -68,8 +70,8 @@ class EscalatingHuman(DemandingHuman):
     def __post_init__(self) -> None:
         super().__post_init__()
         require_pairs(self, {"initial": SHARE})
-        what = "must be above 0, since what is 0 never grows; try 0.01"
-        require(min(map(np.min, self.initial)) > 0.0, "initial", self.initial, what)
+        what = f"must be {LEAST:g} or more, since what is 0 never grows; try 0.01"
+        require(min(map(np.min, self.initial)) >= LEAST, "initial", self.initial, what)
         require_ranges(self, {"growth": GROWTH, "turn": TIME, "relaxation": TIME})
         require_ranges(self, {"hold": HOLD, "tolerance": TOLERANCE}, lanes=True)
 

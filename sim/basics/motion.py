@@ -17,6 +17,8 @@ from .validators import Range, require
 Array = NDArray[np.float64]
 BOUND: Range = (-10.0, 10.0, "")
 """Of a twist, m/s and rad/s: what nobody can walk beside (inferred)."""
+SLOWEST = 1e-6
+"""Upper bound of a twist, m/s or rad/s, at which it moves at all (inferred)."""
 
 
 def sinc(angle: ArrayLike) -> Array:
@@ -146,7 +148,7 @@ class TwistBounds:
     ------
     InputError
         If they are not two numbers within `BOUND` each, a lower bound is not below its upper
-        bound, or an upper bound is not positive.
+        bound, or an upper bound is below `SLOWEST`.
     """
 
     lower: tuple[float, float] = (0.0, -0.5)
@@ -155,5 +157,5 @@ class TwistBounds:
     def __post_init__(self) -> None:
         require_entries(self, ("lower", "upper"), 2, BOUND)
         for name, low, high in zip(("v", "omega"), self.lower, self.upper, strict=True):
-            what = f"that of {name} must be above 0, and above the lower bound, {low:g}"
-            require(high > 0.0 and high > low, "upper", self.upper, what)
+            what = f"that of {name} must be {SLOWEST:g} or more, and above the lower, {low:g}"
+            require(high >= SLOWEST and high > low, "upper", self.upper, what)

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any, Generic, TypeVar
 
 from .errors import InputError
+from .validators import require, require_text
 
 T = TypeVar("T")
 
@@ -49,6 +50,11 @@ class Registry(Generic[T]):
         Group of Python entry points that adds names.
     methods : tuple of str
         What a class must have to be of this kind.
+
+    Raises
+    ------
+    InputError
+        If one is no text, or no mapping or tuple of such.
     """
 
     def __init__(
@@ -58,6 +64,14 @@ class Registry(Generic[T]):
         entry_point_group: str | None = None,
         methods: tuple[str, ...] = (),
     ) -> None:
+        require_text("kind", kind)
+        right = isinstance(built_in, Mapping)
+        right = right and all(isinstance(item, str) for pair in built_in.items() for item in pair)
+        require(right, "built_in", built_in, "a mapping of names to module:Class is expected")
+        if entry_point_group is not None:
+            require_text("entry_point_group", entry_point_group)
+        right = isinstance(methods, tuple) and all(isinstance(name, str) for name in methods)
+        require(right, "methods", methods, "names of methods are expected")
         self.kind = kind
         self._built_in = dict(built_in)
         self._group = entry_point_group

@@ -1,7 +1,7 @@
 """Validators: nonsense is refused at the door, with what would be right.
 
 Every one raises `InputError` whose message begins with the place and whose ``at`` is that place.
-Lists are judged in `cowalk.sim.basics.lists`.
+Lists are judged in `cowalk.sim.basics.lists`, parameters in `cowalk.sim.basics.parameters`.
 """
 
 from __future__ import annotations
@@ -10,14 +10,12 @@ import math
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import fields
 from numbers import Integral, Real
-from typing import Any, TypeGuard, TypeVar
+from typing import Any, TypeGuard
 
 import numpy as np
 
 from .errors import InputError, Step
-from .registry import did_you_mean
 
-P = TypeVar("P")
 Range = tuple[float, float, str]
 """Least and largest sensible value, and the unit."""
 Place = Step | tuple[Step, ...]
@@ -204,41 +202,6 @@ def require_part(place: Place, value: Any, what: str, methods: Iterable[str]) ->
     whole = not missing and not isinstance(value, type)
     lacks = f", with a method {missing[0]}" if missing else ", not its class"
     require(whole, place, value, f"{what} is expected{lacks}")
-
-
-def parameters(name: str, kind: type[P], given: Any) -> P:
-    """Return parameters as their dataclass.
-
-    Parameters
-    ----------
-    name : str
-        What messages call them.
-    kind : type
-        The dataclass.
-    given : dataclass, mapping or None
-
-    Raises
-    ------
-    InputError
-        If it is neither, a key is unknown or missing, or a value refused.
-    """
-    if given is None:
-        return kind()
-    if isinstance(given, kind):
-        return given
-    items = [field for field in fields(kind) if field.init]  # type: ignore[arg-type]
-    known = [field.name for field in items]
-    if not isinstance(given, Mapping):
-        what = f"give a mapping or {kind.__name__} of {', '.join(known)}"
-        raise refusal(name, given, what)
-    if unknown := [key for key in given if key not in known]:
-        near = did_you_mean(str(unknown[0]), known)
-        at = (name, unknown[0] if isinstance(unknown[0], str | int) else shown(unknown[0]))
-        raise InputError(f"{name}.{at[1]}: unknown key; {near}", at)
-    try:
-        return kind(**given)
-    except InputError as error:
-        raise error.inside(name) from error
 
 
 def _or_default(default: Any, within: Range) -> str:

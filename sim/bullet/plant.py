@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from ..basics.errors import InputError, SimulationError
 from ..basics.motion import Array
+from ..basics.parameters import parameters
 from ..basics.rates import Rates
-from ..basics.validators import parameters, require_flag, require_instance
+from ..basics.validators import require_flag, require_instance
 from ..body.anthropometry import BodyParameters
 from ..body.gait import Gait, GaitParameters
 from ..body.grip import GripParameters

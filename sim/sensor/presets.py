@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from ..basics.errors import InputError
+from ..basics.parameters import parameters
 from ..basics.registry import did_you_mean
-from ..basics.validators import parameters, require_text
+from ..basics.validators import require_text
 from .parameters import SensorParameters
 
 PRESETS: dict[str, tuple[str, SensorParameters]] = {

@@ -36,7 +36,8 @@ __all__ = [
 
 ANGLE: Range = (-1000.0, 1000.0, "rad")
 """Of what stands there: some turns more than one, but not nonsense (inferred)."""
-SIGHT: Range = (0.01, math.inf, "m")
+SIGHT: Range = (0.01, 1e5, "m")
+"""That is no limit at all (inferred)."""
 
 
 def _settle_height(thing: Obstacle | Furniture) -> None:
@@ -152,7 +153,7 @@ class ViewRange:
     Raises
     ------
     InputError
-        If one is outside of `SIGHT`.
+        If one is outside of `SIGHT`, and not infinite.
     """
 
     human: float = math.inf

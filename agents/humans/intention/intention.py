@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from cowalk.sim.basics.errors import InputError
+from cowalk.sim.basics.errors import InputError, Step
 from cowalk.sim.basics.lists import require_entries, require_instances
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
@@ -63,21 +63,20 @@ class ChangeOfMind:
     path: Path | None = None
 
     def __post_init__(self) -> None:
-        faults = []
-        if (self.at_time is None) == (self.at_station is None):
-            faults.append("give either at_time (s) or at_station (m)")
-        if self.pace is None and self.path is None:
-            faults.append("nothing changes: give pace (m/s), path, or both")
+        faults: list[str] = []
+        at: tuple[Step, ...] = ()
         try:
             require_ranges(self, OF_CHANGES)
             if self.path is not None:
                 require_instance("path", self.path, Path)
         except InputError as error:
-            if not faults:
-                raise
-            faults.append(str(error))
+            faults, at = [str(error)], error.at
+        if (self.at_time is None) == (self.at_station is None):
+            faults.append("give either at_time (s) or at_station (m)")
+        if self.pace is None and self.path is None:
+            faults.append("nothing changes: give pace (m/s), path, or both")
         if faults:
-            raise InputError("; ".join(faults))
+            raise InputError("; ".join(faults), at)
 
 
 @dataclass(frozen=True)

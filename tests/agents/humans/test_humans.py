@@ -286,7 +286,7 @@ def test_stubbornness_settles_against_an_automation_that_yields_to_it(name, situ
         (lambda: SteadyHuman(level=(0.5, 1.5)), r"level = .*1\.5"),
         (lambda: EscalatingHuman(turn=0.0), r"turn = 0\.0"),
         (lambda: EscalatingHuman(initial=(0.0, 0.0)), r"initial = .*what is 0 never grows"),
-        (lambda: EscalatingHuman(initial=(0.4, 0.0)), r"initial = .*must be above 0"),
+        (lambda: EscalatingHuman(initial=(0.4, 0.0)), r"initial = .*must be 0\.001 or more"),
         (lambda: SteadyHuman(level=0.5), r"level = 0\.5: must be two numbers, for v and for omega"),
         (lambda: SteadyHuman(level=(0.5,)), r"level = .*must be two numbers"),
         (lambda: SteadyHuman(level=(np.nan, 0.5)), r"level = .*must lie between 0 and 1$"),

@@ -358,7 +358,7 @@ def test_a_swapped_part_keeps_its_section_but_not_its_parameters(scenario_file):
         ("human.parameters.gain=nan", "a number is expected, not text"),
         (
             "human.intention.changes=[{pace: -1}]",
-            "give either at_time (s) or at_station (m); pace = -1.0 m/s: must lie",
+            "pace = -1.0 m/s: must lie between 0 and 5 m/s, or be left out; give either at_time",
         ),
         ("human.parameters.gain=true", "not true or false"),
         ("human=foo", "unknown human 'foo'; known: bounded-memory, conceding"),
