@@ -23,7 +23,7 @@ HUMANS: Registry[Human] = Registry(
         "recorded": "cowalk.agents.humans.recorded.human:RecordedHuman",
     },
     "cowalk.humans",
-    methods=("reset", "act", "truth"),
+    protocol=Human,
 )
 
 IMPERFECTIONS: Registry[Imperfection] = Registry(
@@ -42,6 +42,7 @@ IMPERFECTIONS: Registry[Imperfection] = Registry(
         "gait-ripple": "cowalk.agents.imperfections.gait_ripple:GaitRipple",
     },
     "cowalk.imperfections",
+    protocol=Human,  # an imperfection is a human around another one
 )
 
 AUTOMATIONS: Registry[Automation] = Registry(
@@ -52,5 +53,5 @@ AUTOMATIONS: Registry[Automation] = Registry(
         "always-yields": "cowalk.agents.automations.strategies.leads:AlwaysYields",
     },
     "cowalk.automations",
-    methods=("reset", "act", "belief"),
+    protocol=Automation,
 )

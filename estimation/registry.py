@@ -15,7 +15,7 @@ FRONT_ENDS: Registry[FrontEnd] = Registry(
         "mean": "cowalk.estimation.front_ends.mean:SlidingMean",
     },
     "cowalk.front_ends",
-    methods=("reset", "update", "delay"),
+    protocol=FrontEnd,
 )
 
 SMOOTHERS: Registry[Smoother] = Registry(
@@ -25,12 +25,12 @@ SMOOTHERS: Registry[Smoother] = Registry(
         "kalman": "cowalk.estimation.smoothers.kalman:KalmanSmoother",
     },
     "cowalk.smoothers",
-    methods=("reset", "update"),
+    protocol=Smoother,
 )
 
 OBSERVERS: Registry[Observer] = Registry(
     "observer",
     {"paper": "cowalk.estimation.observers.paper:PaperObserver"},
     "cowalk.observers",
-    methods=("reset", "update"),
+    protocol=Observer,
 )

@@ -5,6 +5,7 @@ from .basics.observation import Observation as Observation
 from .basics.path import Path as Path
 from .basics.rates import Rates as Rates
 from .basics.registry import Registry as Registry
+from .basics.registry import part as part
 from .basics.situation import Situation as Situation
 from .env.env import CowalkEnv as CowalkEnv
 from .env.env import parallel_env as parallel_env

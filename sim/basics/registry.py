@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import difflib
-import sys
+import inspect
 from collections.abc import Callable, Iterator, Mapping
 from functools import cache
-from importlib import import_module
 from importlib.metadata import entry_points
-from pathlib import Path
 from typing import Any, Generic, TypeVar
 
 from .errors import InputError
-from .validators import require, require_text
+from .own_modules import named_module
 
 T = TypeVar("T")
+F = TypeVar("F", bound=Callable[..., Any])
+_KIND = "__cowalk_part__"
+"""Attribute of a function that says which kind of part it builds."""
 
 
 def nearest(name: str, known: list[str]) -> str | None:
@@ -37,24 +38,64 @@ def _installed(group: str) -> dict[str, str]:
     return {point.name: point.value for point in entry_points(group=group)}
 
 
+def part(kind: str) -> Callable[[F], F]:
+    """Mark a function as one that builds a part, so that ``module:function`` may name it.
+
+    Parameters
+    ----------
+    kind : str
+        Kind of the part, as `Registry.kind`: ``"human"``, ``"front end"``, ...
+
+    Examples
+    --------
+    >>> @part("smoother")
+    ... def wide(window: int = 20):
+    ...     return MovingAverage(window)
+    """
+
+    def mark(function: F) -> F:
+        setattr(function, _KIND, kind)
+        return function
+
+    return mark
+
+
+def marked_kind(thing: Any) -> str | None:
+    """Return the kind of part that a function is marked to build, None where it is not."""
+    return None if isinstance(thing, type) else getattr(thing, _KIND, None)
+
+
+def import_address(address: str) -> Any:
+    """Return what ``module:name`` stands for.
+
+    Raises
+    ------
+    InputError
+        If it cannot be imported.
+    """
+    module_name, _, attribute = address.partition(":")
+    try:
+        found: Any = named_module(module_name)
+        for step in attribute.split("."):
+            found = getattr(found, step)
+    except (ImportError, AttributeError, SyntaxError, ValueError) as error:
+        raise InputError(f"cannot be imported: {error}") from error
+    return found
+
+
 class Registry(Generic[T]):
     """A set of named constructors of one kind of part.
 
     Parameters
     ----------
     kind : str
-        What is registered, in one word; it appears in messages.
+        What is registered, in a word or two; it appears in messages.
     built_in : mapping of str to str
         ``module:Class`` for every name that ships; nothing is imported before it is asked for.
     entry_point_group : str, optional
         Group of Python entry points that adds names.
-    methods : tuple of str
-        What a class must have to be of this kind.
-
-    Raises
-    ------
-    InputError
-        If one is no text, or no mapping or tuple of such.
+    protocol : type, optional
+        Class whose methods a class must have to be of this kind.
     """
 
     def __init__(
@@ -62,20 +103,12 @@ class Registry(Generic[T]):
         kind: str,
         built_in: Mapping[str, str],
         entry_point_group: str | None = None,
-        methods: tuple[str, ...] = (),
+        protocol: type[Any] | None = None,
     ) -> None:
-        require_text("kind", kind)
-        right = isinstance(built_in, Mapping)
-        right = right and all(isinstance(item, str) for pair in built_in.items() for item in pair)
-        require(right, "built_in", built_in, "a mapping of names to module:Class is expected")
-        if entry_point_group is not None:
-            require_text("entry_point_group", entry_point_group)
-        right = isinstance(methods, tuple) and all(isinstance(name, str) for name in methods)
-        require(right, "methods", methods, "names of methods are expected")
         self.kind = kind
         self._built_in = dict(built_in)
         self._group = entry_point_group
-        self._methods = methods
+        self.calls = _calls(protocol) if protocol else {}
 
     def _addresses(self) -> dict[str, str]:
         return self._built_in | (_installed(self._group) if self._group else {})
@@ -90,30 +123,74 @@ class Registry(Generic[T]):
     def get(self, name: str) -> Callable[..., T]:
         """Return the constructor behind a name or a ``module:Class``.
 
+        It is a class with the methods of this kind, or a function that is marked with `part`:
+        nothing else is ever called because a file names it.
+
         Raises
         ------
         InputError
-            If the name is unknown, or the module or the class cannot be imported.
+            If the name is unknown, cannot be imported, or stands for something else.
         """
         address = name if ":" in name else self._addresses().get(name)
         if address is None:
             raise InputError(f"unknown {self.kind} {name!r}; {did_you_mean(name, self.names())}")
-        module_name, _, attribute = address.partition(":")
-        here = str(Path.cwd())
-        if ":" in name and here not in sys.path:
-            sys.path.append(here)  # a user's file in the current folder, as with `python -m`
         try:
-            part: Any = import_module(module_name)
-            for step in attribute.split("."):
-                part = getattr(part, step)
-        except (ImportError, AttributeError, SyntaxError, ValueError) as error:
-            raise InputError(f"{self.kind} {name!r} cannot be imported: {error}") from error
-        if not callable(part):
-            raise InputError(f"{self.kind} {name!r} is not a class")
-        missing = [method for method in self._methods if not hasattr(part, method)]
-        if isinstance(part, type) and missing:
-            needs = ", ".join(self._methods)
-            raise InputError(
-                f"{self.kind} {name!r} has no method {missing[0]!r}; a {self.kind} needs {needs}"
+            found = import_address(address)
+        except InputError as error:
+            raise InputError(f"{self.kind} {name!r} {error}") from error
+        if reason := self.mismatch(found):
+            raise InputError(f"{self.kind} {name!r} {reason}")
+        return found  # type: ignore[no-any-return]
+
+    def mismatch(self, found: Any) -> str | None:
+        """Return why something is no constructor of this kind, None if it is one."""
+        if isinstance(found, type):
+            missing = [method for method in self.calls if not hasattr(found, method)]
+            needs = f"a {self.kind} needs {', '.join(self.calls)}"
+            return f"has no method {missing[0]!r}; {needs}" if missing else None
+        marked = marked_kind(found)
+        if marked is not None and marked != self.kind:
+            return f"builds a part of another kind: {marked}"
+        if marked is None and callable(found):
+            return (
+                f"is not a class; mark a function that builds one: @cowalk.sim.part({self.kind!r})"
             )
-        return part  # type: ignore[no-any-return]
+        return None if marked else "is not a class"
+
+    def suits(self, found: Any) -> bool:
+        """Return whether a class can be called as this kind is, or a function is marked so."""
+        if not isinstance(found, type):
+            return marked_kind(found) == self.kind
+        return self.mismatch(found) is None and all(
+            _takes(getattr(found, name), count) for name, count in self.calls.items()
+        )
+
+    def describe(self, name: str) -> str:
+        """Return what a name stands for, in one line."""
+        try:
+            text = self.get(name).__doc__ or ""
+        except InputError as error:  # an installed add-on that does not work hides nothing else
+            text = str(error)
+        return text.strip().partition("\n")[0]
+
+
+def _calls(protocol: type[Any]) -> dict[str, int]:
+    """Return the methods of a protocol, and how many arguments each is called with."""
+    return {
+        name: len(inspect.signature(method).parameters) - 1
+        for kind in reversed(protocol.__mro__)
+        for name, method in vars(kind).items()
+        if inspect.isfunction(method) and not name.startswith("_")
+    }
+
+
+def _takes(method: Any, count: int) -> bool:
+    """Return whether a method of a class can be called with so many arguments."""
+    own = 0 if inspect.ismethod(method) else 1
+    try:
+        inspect.signature(method).bind(*range(own + count))
+    except TypeError:
+        return False
+    except ValueError:  # compiled: nothing is known of it
+        return True
+    return True

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from ..basics.errors import InputError
-from ..basics.parameters import parameters
 from ..basics.registry import did_you_mean
-from ..basics.validators import require_text
+from ..basics.validators import (
+    parameters,
+)
 from .parameters import SensorParameters
 
 PRESETS: dict[str, tuple[str, SensorParameters]] = {
@@ -109,10 +110,30 @@ def sensor_preset(name: str, **changes: Any) -> SensorParameters:
     InputError
         If there is no such preset, or a change is refused.
     """
-    require_text("preset", name, "the name of a preset")
     if name == "none":
         return parameters("sensor", SensorParameters, changes)
     if name not in PRESETS:
         near = did_you_mean(str(name), list(PRESETS))
         raise InputError(f"unknown sensor preset {name!r}; {near}")
     return parameters("sensor", SensorParameters, vars(PRESETS[name][1]) | changes)
+
+
+class Presets:
+    """The presets as a registry: their names, what each stands for, and its parameters."""
+
+    kind = "sensor preset"
+
+    def names(self) -> list[str]:
+        """Return all names of sensors that can be bought."""
+        return list(PRESETS)
+
+    def describe(self, name: str) -> str:
+        """Return what a name stands for, in one line."""
+        return PRESETS[name][0]
+
+    def get(self, name: str) -> SensorParameters:
+        """Return the parameters behind a name (see `sensor_preset`)."""
+        return sensor_preset(name)
+
+
+SENSOR_PRESETS = Presets()
