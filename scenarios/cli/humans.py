@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
+from ..files.parts import kind_of_part
+from .changes import Changes, blamed, changing, load_changed, option
+from .listing import list_parts
 from .output import PASSED, Json, emit_json, emit_table, progress_bar
 
 
-def register(app: typer.Typer, list_models: Callable[[bool], int]) -> None:
-    """Add these commands to the command line; ``list_models`` prints the models' names."""
+def register(app: typer.Typer) -> None:
+    """Add these commands to the command line."""
     humans = typer.Typer(rich_markup_mode=None, help="Look at human models and populations.")
 
     @humans.command("list")
     def list_humans(as_json: Json = False) -> int:
         """List the human models; cowalk list also has imperfections and populations."""
-        return list_models(as_json)
+        return list_parts(kind_of_part("human").plural, as_json)
 
     humans.command(
         epilog=(
@@ -44,24 +46,8 @@ def register(app: typer.Typer, list_models: Callable[[bool], int]) -> None:
             "  cowalk humans table puddle -n 10 --plant bullet\n"
             "  cowalk humans table --write docs/humans.md"
         )
-    )(table)
+    )(changing(table, plant="unicycle"))
     app.add_typer(humans, name="humans")
-
-
-def agent_faults(address: str) -> list[str]:
-    """Return every fault of a human or an automation given as ``module:Class``.
-
-    Raises
-    ------
-    InputError
-        If it cannot be imported.
-    """
-    from cowalk.agents.checks.conformance import automation_problems, human_problems
-    from cowalk.agents.registry import HUMANS
-
-    part = HUMANS.get(address)
-    problems = automation_problems if hasattr(part, "belief") else human_problems
-    return [f"{address}: {problem}" for problem in problems(part)]
 
 
 def sample(
@@ -134,6 +120,7 @@ def show(
     """Draw what a human model does, or an imperfection alone on a prescribed push."""
     from cowalk.sim.basics.errors import InputError
 
+    from ..export.folder import writable_folder
     from ..studies.human_pictures import show_human, show_imperfections
 
     wanted = imperfection or []
@@ -144,11 +131,15 @@ def show(
         file = file.with_name(f"{file.name}.png")
     elif file.suffix.lower() != ".png":
         raise InputError(f"--out {out}: pictures are PNG; write {file.with_suffix('.png')}")
-    if name:
-        points = show_human(name, wanted, assign or [], file)
-        found: dict[str, Any] = {"fixed points": points}
-    else:
-        found = {"largest change": show_imperfections(wanted, assign or [], file)}
+    with option("--out"):
+        writable_folder(file.parent)
+    assignments = assign or []
+    found: dict[str, Any]
+    with blamed(Changes((), assignments)):
+        if name:
+            found = {"fixed points": show_human(name, wanted, assignments, file)}
+        else:
+            found = {"largest change": show_imperfections(wanted, assignments, file)}
     if as_json:
         emit_json({"human": name or None, "imperfections": wanted, "picture": str(file)} | found)
         return PASSED
@@ -161,11 +152,11 @@ def show(
 
 
 def table(
+    changes: Changes,
     scenario: Annotated[
         str, typer.Argument(metavar="SCENARIO", help="Name in the library, or a YAML file.")
     ] = "puddle",
     seeds: Annotated[int, typer.Option("-n", metavar="SEEDS", min=2, help="Runs of each.")] = 30,
-    plant: Annotated[str, typer.Option(help="Plant instead of the scenario's.")] = "unicycle",
     write: Annotated[
         Path | None,
         typer.Option(metavar="FILE", help="Also put the table between its marks in a document."),
@@ -173,7 +164,6 @@ def table(
     as_json: Json = False,
 ) -> int:
     """Compare every human with every automation, with 95 % bootstrap intervals."""
-    from ..files.loading import load
     from ..studies.human_table import (
         NOTE,
         compare_humans,
@@ -183,13 +173,14 @@ def table(
         write_table,
     )
 
-    loaded = load(scenario, [f"plant={plant}"] if plant else [])
+    loaded = load_changed(scenario, changes)
     if write is not None:
-        marked_document(write)  # before the minutes that the runs take
+        with option("--write"):
+            marked_document(write)  # before the minutes that the runs take
     with progress_bar("comparing") as progress:
         cells = compare_humans(loaded, seeds, progress=progress)
     if write is not None:
-        write_table(write, cells, loaded.name, plant, seeds)
+        write_table(write, cells, loaded.name, loaded.plant.name, seeds)
     if as_json:
         emit_json(
             {

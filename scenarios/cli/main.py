@@ -13,9 +13,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from . import humans as cli_humans
-from . import listing as cli_list
-from . import studies as cli_studies
+from . import humans, listing, studies
+from .changes import Changes, changing, option, read_changed
 from .output import (
     BAD_INPUT,
     FAILED,
@@ -29,47 +28,56 @@ from .output import (
 )
 
 if TYPE_CHECKING:
-    from ..files.schema import Scenario
+    from ..files.loading import Reading
     from ..trace.result import RunResult
 
-app = typer.Typer(
-    add_completion=False,
-    rich_markup_mode=None,
-    pretty_exceptions_enable=False,
-    help="A human and a robot negotiate where to walk: simulate it, measure it, judge it.",
-    epilog=(
-        "\b\nExamples:\n"
-        "  cowalk run puddle\n"
-        "  cowalk list\n"
-        "  cowalk COMMAND --help\n\n\b\n"
-        "Exit codes: 0 all well, 1 an expectation failed, 2 bad input or a run that was aborted."
-    ),
-)
 
-
-@app.command(
-    epilog=(
-        "\b\nExamples:\n"
-        "  cowalk run puddle\n"
-        "  cowalk run puddle --automation never-yields --out runs/stubborn\n"
-        "  cowalk run puddle --set human.parameters.gain=2.0 --set world.obstacles.0.x=8 --seed 3\n"
-        "  cowalk run puddle --video puddle.mp4 --rerun puddle.rrd\n"
-        "  cowalk run my.scenario.yaml --human mymodels:MyHuman --json"
+def command_line() -> typer.Typer:
+    """Return the command line, with an option for every part of the table."""
+    app = typer.Typer(
+        add_completion=False,
+        rich_markup_mode=None,
+        pretty_exceptions_enable=False,
+        help="A human and a robot negotiate where to walk: simulate it, measure it, judge it.",
+        epilog=(
+            "\b\nExamples:\n"
+            "  cowalk run puddle\n"
+            "  cowalk list\n"
+            "  cowalk COMMAND --help\n\n\b\n"
+            "Exit codes: 0 all well, 1 an expectation failed, 2 bad input or a run that was "
+            "aborted."
+        ),
     )
-)
+    app.command(
+        epilog=(
+            "\b\nExamples:\n"
+            "  cowalk run puddle\n"
+            "  cowalk run puddle --automation never-yields --out runs/stubborn\n"
+            "  cowalk run puddle --set human.parameters.gain=2.0 --set world.obstacles.0.x=8\n"
+            "  cowalk run puddle --sensor industrial --seed 3 --show\n"
+            "  cowalk run puddle --video puddle.mp4 --rerun puddle.rrd\n"
+            "  cowalk run my.scenario.yaml --human mymodels:MyHuman --json"
+        )
+    )(changing(run))
+    app.command(
+        epilog=(
+            "\b\nExamples:\n"
+            "  cowalk check my.scenario.yaml\n"
+            "  cowalk check *.scenario.yaml\n"
+            "  cowalk check mymodels:MyHuman"
+        )
+    )(check)
+    listing.register(app)
+    humans.register(app)
+    studies.register(app)
+    return app
+
+
 def run(
     scenario: Annotated[
         str, typer.Argument(metavar="SCENARIO", help="Name in the library, or a YAML file.")
     ],
-    plant: Annotated[str, typer.Option(help="Plant instead of the scenario's.")] = "",
-    human: Annotated[str, typer.Option(help="Human model instead: name or module:Class.")] = "",
-    automation: Annotated[str, typer.Option(help="Automation instead: name or module:Class.")] = "",
-    smoother: Annotated[str, typer.Option(help="The automation's smoother instead.")] = "",
-    assign: Annotated[
-        list[str] | None,
-        typer.Option("--set", metavar="KEY=VALUE", help="Replace one value; may be repeated."),
-    ] = None,
-    seed: Annotated[int | None, typer.Option(help="Seed instead of the scenario's.")] = None,
+    changes: Changes,
     out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Run folder, runs/NAME unless given.")
     ] = None,
@@ -81,23 +89,29 @@ def run(
         typer.Option(metavar="FILE.rrd", help="Record it for the Rerun viewer as well."),
     ] = None,
     gui: Annotated[bool, typer.Option("--gui", help="Show the run in a window.")] = False,
+    show: Annotated[
+        bool,
+        typer.Option(
+            "--show", help="Print the final scenario, its values marked by origin; run nothing."
+        ),
+    ] = False,
     as_json: Json = False,
 ) -> int:
     """Run a scenario, keep what it gave, judge it."""
+    reading = read_changed(scenario, changes)
+    if show:
+        return _show(reading, as_json)
     from ..export.folder import writable_folder
     from ..running.runner import run as run_scenario
     from ..watch.watcher import watchers
 
-    options = {
-        "plant": plant,
-        "human": human,
-        "automation": automation,
-        "smoother": smoother,
-        "seed": "" if seed is None else str(seed),
-    }
-    loaded = _load(scenario, options, assign or [])
-    watching = watchers(video, rerun)
-    folder = writable_folder(out if out is not None else Path("runs") / loaded.name)
+    loaded = reading.scenario
+    with option("--video"):
+        watching = watchers(video=video)
+    with option("--rerun"):
+        watching += watchers(recording=rerun)
+    with option("--out"):
+        folder = writable_folder(out if out is not None else Path("runs") / loaded.name)
     # What a user's class prints must not end up in the JSON.
     label = f"filming {loaded.name}" if video is not None else loaded.name
     with progress_bar(label) as progress, redirect_stdout(sys.stderr):
@@ -116,22 +130,17 @@ def run(
     return PASSED if result.passed else FAILED
 
 
-def _load(source: str, options: dict[str, str], assignments: list[str]) -> Scenario:
-    """Return the scenario with its parts swapped and values set; blame the option given."""
-    from cowalk.sim.basics.errors import InputError
+def _show(reading: Reading, as_json: bool) -> int:
+    from ..files.assembling import resolve
+    from ..files.loading import plain
+    from ..files.origins import marked, origins
 
-    from ..files.loading import load
-
-    keys = {"smoother": "automation.smoother"}
-    swaps = {name: f"{keys.get(name, name)}={value}" for name, value in options.items() if value}
-    try:
-        return load(source, [*swaps.values(), *assignments])
-    except InputError as error:
-        message = str(error)
-        for name, assignment in swaps.items():
-            if assignment not in assignments:
-                message = message.replace(f"--set {assignment}:", f"--{name} {options[name]}:")
-        raise InputError(message) from error
+    if as_json:
+        scenario = plain(resolve(reading.scenario))
+        emit_json({"scenario": scenario, "origins": origins(reading)})
+    else:
+        print(marked(reading), end="")
+    return PASSED
 
 
 def _report(result: RunResult, folder: Path, files: dict[str, str]) -> None:
@@ -168,35 +177,27 @@ def _report(result: RunResult, folder: Path, files: dict[str, str]) -> None:
         print(f"speed:    {two_digits(factor)} times real time ({wall:.2f} s)")
 
 
-@app.command(
-    epilog=(
-        "\b\nExamples:\n"
-        "  cowalk check my.scenario.yaml\n"
-        "  cowalk check *.scenario.yaml\n"
-        "  cowalk check mymodels:MyHuman"
-    )
-)
 def check(
     files: Annotated[
         list[str],
-        typer.Argument(metavar="FILE...", help="Scenario files, or agents as module:Class."),
+        typer.Argument(
+            metavar="FILE...", help="Scenario files, or parts of your own as module:Class."
+        ),
     ],
 ) -> int:
-    """Report every fault of scenario files with its line, or of your own agents."""
+    """Report every fault of scenario files with its line, or of parts of your own."""
     from cowalk.sim.basics.errors import InputError
 
     from ..files.loading import faults, find
+    from ..files.own_parts import own_part_faults
 
     code = PASSED
     for file in files:
-        agent = ":" in file and not Path(file).exists()
+        part = ":" in file and not Path(file).exists()
         try:
-            if agent:
-                found = cli_humans.agent_faults(file)
-            else:
-                found = [str(fault) for fault in faults(find(file))]
+            found = own_part_faults(file) if part else list(map(str, faults(find(file))))
         except InputError as error:
-            if agent:  # there is nothing to check
+            if part:  # there is nothing to check
                 complain(str(error))
                 code = BAD_INPUT
                 continue
@@ -206,18 +207,15 @@ def check(
     return code
 
 
-cli_list.register(app)
-cli_humans.register(app, lambda as_json: cli_list.list_parts(cli_list.Kind.HUMANS, as_json))
-cli_studies.register(app)
-
-
 def main() -> None:
     """Run the command line and exit with its code."""
     # A run that is told to stop keeps what it has, as after Ctrl-C.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     # Without arguments: the help, not a complaint.
     try:
-        code = app(args=sys.argv[1:] or ["--help"], prog_name="cowalk", standalone_mode=False)
+        code = command_line()(
+            args=sys.argv[1:] or ["--help"], prog_name="cowalk", standalone_mode=False
+        )
     except Exception as error:
         message = _one_line(error)
         if message is None:

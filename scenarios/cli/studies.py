@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
+from .changes import Changes, changing, load_changed, option
 from .output import FAILED, PASSED, Json, emit_json, emit_table, progress_bar
 
 
@@ -28,9 +29,9 @@ def register(app: typer.Typer) -> None:
         epilog=(
             "\b\nExamples:\n"
             "  cowalk compare smoothers\n"
-            "  cowalk compare smoothers puddle -n 20 --json"
+            "  cowalk compare smoothers puddle --human conceding -n 20 --json"
         ),
-    )(smoothers)
+    )(changing(smoothers))
     compare.callback()(lambda: None)
     app.add_typer(compare, name="compare")
 
@@ -49,7 +50,8 @@ def paper(
     from ..export.folder import writable_folder
 
     if out is not None:
-        writable_folder(out)
+        with option("--out"):
+            writable_folder(out)
     found: list[str] = []
     if calibrate:
         from ..studies.calibration import calibrate as search
@@ -89,6 +91,7 @@ def paper(
 
 
 def smoothers(
+    changes: Changes,
     scenario: Annotated[
         str, typer.Argument(metavar="SCENARIO", help="Name in the library, or a YAML file.")
     ] = "puddle",
@@ -96,10 +99,9 @@ def smoothers(
     as_json: Json = False,
 ) -> int:
     """Print every smoother's error and lag against the human's true stubbornness."""
-    from ..files.loading import load
     from ..studies.smoothers import compare_smoothers
 
-    loaded = load(scenario)
+    loaded = load_changed(scenario, changes)
     with progress_bar("comparing") as progress:
         scores = compare_smoothers(loaded, seeds, progress)
     if as_json:

@@ -3,22 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from cowalk.sim.basics.errors import InputError
 
-if TYPE_CHECKING:
-    pass
 
-
-def writable_file(file: str | Path, option: str, suffix: str) -> Path:
+def writable_file(file: str | Path, suffix: str) -> Path:
     """Return a file that can be written, its folder created.
 
     Parameters
     ----------
     file : str or Path
-    option : str
-        Command-line option to blame.
     suffix : str
         How its name must end, with the dot.
 
@@ -29,7 +23,7 @@ def writable_file(file: str | Path, option: str, suffix: str) -> Path:
     """
     path = Path(file)
     if path.suffix.lower() != suffix:
-        raise InputError(f"{option} {file}: the name must end in {suffix}, as in run{suffix}")
+        raise InputError(f"{file}: the name must end in {suffix}, as in run{suffix}")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         existed = path.exists()
@@ -38,7 +32,7 @@ def writable_file(file: str | Path, option: str, suffix: str) -> Path:
             path.unlink()
     except OSError as error:
         raise InputError(
-            f"{option} {file}: cannot write there ({error.strerror}); give a file in a folder "
+            f"{file}: cannot write there ({error.strerror}); give a file in a folder "
             "that can be written"
         ) from error
     return path

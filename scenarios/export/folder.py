@@ -3,12 +3,8 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from cowalk.sim.basics.errors import InputError
-
-if TYPE_CHECKING:
-    pass
 
 
 def writable_folder(folder: str | Path) -> Path:
@@ -27,6 +23,6 @@ def writable_folder(folder: str | Path) -> Path:
         probe.unlink()
     except OSError as error:
         raise InputError(
-            f"--out {folder}: cannot write there ({error.strerror}); give a writable folder"
+            f"{folder}: cannot write there ({error.strerror}); give a writable folder"
         ) from error
     return path

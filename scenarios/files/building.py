@@ -14,7 +14,7 @@ from pydantic.errors import PydanticSchemaGenerationError, PydanticUserError
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.registry import Registry
 
-from .documents import Fault, KeyPath
+from .documents import Fault, KeyPath, dotted
 from .schema import Component
 from .validation import validate
 
@@ -25,7 +25,7 @@ _PLAIN = (bool, int, float, str, tuple)
 _KEYWORDS = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
 
 
-def build(registry: Registry[T], component: Component, section: str, **shared: Any) -> T:
+def build(registry: Registry[T], component: Component, at: KeyPath, **shared: Any) -> T:
     """Return the object that a component names.
 
     Parameters
@@ -34,7 +34,7 @@ def build(registry: Registry[T], component: Component, section: str, **shared: A
         Where the name is looked up.
     component : Component
         Name and parameters.
-    section : str
+    at : tuple of str and int
         Section of the scenario that holds the component, for messages.
     **shared
         Arguments that come from elsewhere in the scenario (``rates``, ``smoother``, ...); the
@@ -45,41 +45,58 @@ def build(registry: Registry[T], component: Component, section: str, **shared: A
     InputError
         If the name or a parameter is not right; the first fault, in one line.
     """
-    found = attempt(registry, component, section, **shared)
+    found = attempt(registry, component, at, shared)
     if isinstance(found, Fault):
-        raise InputError(found.message)
+        raise found.error()
     return found
 
 
-def attempt(registry: Registry[T], component: Component, section: str, **shared: Any) -> T | Fault:
-    """Return the object that a component names, or the first problem (see `build`)."""
-    constructor, parameters, problems = _prepare(registry, component, section, shared)
+def attempt(
+    registry: Registry[T],
+    component: Component,
+    at: KeyPath,
+    shared: Mapping[str, Any],
+    elsewhere: Mapping[str, str] | None = None,
+) -> T | Fault:
+    """Return the object that a component names, or the first problem (see `build`).
+
+    Parameters
+    ----------
+    registry, component, at
+        See `build`.
+    shared : mapping
+        Arguments that come from elsewhere, by their names.
+    elsewhere : mapping, optional
+        See `check_parameters`; the names of ``shared`` themselves unless given.
+    """
+    places = {name: name for name in shared} if elsewhere is None else elsewhere
+    constructor, parameters, problems = _prepare(registry, component, at, places)
     if problems or constructor is None:
         return problems[0]
     accepted = {name: value for name, value in shared.items() if name in _accepted(constructor)}
     try:
         return constructor(**parameters, **accepted)
     except Exception as error:  # a user's class may raise anything
-        return _constructor_problem(error, component, section)
+        return _constructor_problem(error, component, at)
 
 
 def check_parameters(
-    registry: Registry[Any], component: Component, section: str, shared: Collection[str] = ()
+    registry: Registry[Any], component: Component, at: KeyPath, elsewhere: Mapping[str, str]
 ) -> list[Fault]:
     """Return every problem of a component's name and parameters, without building it.
 
     Parameters
     ----------
-    registry, component, section
+    registry, component, at
         See `build`.
-    shared : collection of str
-        Names of the arguments that come from elsewhere in the scenario.
+    elsewhere : mapping of str to str
+        Arguments that come from elsewhere: where in the scenario each is set, empty if nowhere.
     """
-    return _prepare(registry, component, section, shared)[2]
+    return _prepare(registry, component, at, elsewhere)[2]
 
 
 def complete(
-    registry: Registry[Any], component: Component, shared: Collection[str] = ()
+    registry: Registry[Any], component: Component, elsewhere: Collection[str] = ()
 ) -> dict[str, Any]:
     """Return a component's parameters with the defaults of its constructor written out.
 
@@ -87,13 +104,13 @@ def complete(
 
     Parameters
     ----------
-    registry, component, shared
+    registry, component, elsewhere
         See `check_parameters`.
     """
     given = dict(component.parameters)
     for name, parameter in _accepted(registry.get(component.name)).items():
         default = parameter.default
-        if name in shared or isinstance(default, type):
+        if name in elsewhere or isinstance(default, type):
             continue
         if isinstance(default, _PLAIN):
             given.setdefault(name, default)
@@ -107,27 +124,26 @@ def complete(
 
 
 def _prepare(
-    registry: Registry[T], component: Component, section: str, shared: Collection[str]
+    registry: Registry[T], component: Component, at: KeyPath, elsewhere: Mapping[str, str]
 ) -> tuple[Callable[..., T] | None, dict[str, Any], list[Fault]]:
     """Return the constructor, the validated parameters and every problem of the two."""
-    here = _place(section)
+    named: KeyPath = (*at, "name")
     try:
         constructor = registry.get(component.name)
     except InputError as error:
-        return None, {}, [Fault((*here, "name"), f"{section}.name: {error}")]
+        return None, {}, [Fault(named, f"{dotted(named)}: {error}")]
     except Exception as error:  # a user's module may raise anything when imported
         reason = f"importing it failed with {type(error).__name__}: {error}"
-        message = f"{section}.name = {component.name!r}: {reason}"
-        return None, {}, [Fault((*here, "name"), message)]
-    at: KeyPath = (*here, "parameters")
+        return None, {}, [Fault(named, f"{dotted(named)} = {component.name!r}: {reason}")]
+    place: KeyPath = (*at, "parameters")
     problems = [
-        Fault((*at, name), f"{section}.parameters.{name}: {_elsewhere(name, section)}")
+        Fault((*place, name), f"{dotted((*place, name))}: {_elsewhere(elsewhere[name])}")
         for name in component.parameters
-        if name in shared
+        if name in elsewhere
     ]
-    given = {name: value for name, value in component.parameters.items() if name not in shared}
-    accepts, names = _parameter_model(constructor, tuple(shared))
-    model, faults = validate(accepts, given, at)
+    given = {key: value for key, value in component.parameters.items() if key not in elsewhere}
+    accepts, names = _parameter_model(constructor, tuple(elsewhere))
+    model, faults = validate(accepts, given, place)
     if model is None:
         return constructor, {}, [*problems, *faults]
     values = {
@@ -136,13 +152,8 @@ def _prepare(
     return constructor, values | (model.model_extra or {}), problems
 
 
-def _place(section: str) -> KeyPath:
-    return tuple(int(step) if step.isdecimal() else step for step in section.split("."))
-
-
-def _elsewhere(name: str, section: str) -> str:
-    place = name if name == "rates" else f"{section}.{name}"
-    return f"set this at {place}"
+def _elsewhere(place: str) -> str:
+    return f"set this at {place}" if place else "a scenario cannot set this"
 
 
 def _accepted(constructor: Callable[..., Any]) -> dict[str, inspect.Parameter]:
@@ -206,13 +217,17 @@ def _checkable(hint: Any) -> Any:
     return hint
 
 
-def _constructor_problem(error: Exception, component: Component, section: str) -> Fault:
-    """Return why a constructor refused, at the parameter that its message begins with."""
-    here = _place(section)
-    if not isinstance(error, ValueError):
-        reason = f"it cannot be built: {type(error).__name__}: {error}"
-        return Fault((*here, "name"), f"{section}.name = {component.name!r}: {reason}")
-    steps = str(error).partition(" ")[0].rstrip(":,").split(".")
-    if steps[0] in component.parameters:
-        return Fault((*here, "parameters", *steps), f"{section}.parameters.{error}")
-    return Fault((*here, "parameters"), f"{section}.parameters: {error}")
+def _constructor_problem(error: Exception, component: Component, at: KeyPath) -> Fault:
+    """Return why a constructor refused, at the parameter that it blames."""
+    place: KeyPath = (*at, "parameters")
+    if isinstance(error, InputError):
+        if not error.at:  # TEMPORARY, until every constructor gives the place
+            steps = str(error).partition(" ")[0].rstrip(":,").split(".")
+            error = InputError(str(error), tuple(steps) if steps[0] in component.parameters else ())
+        refused = error.inside(*place)
+        return Fault(refused.at, str(refused))
+    if isinstance(error, ValueError):
+        return Fault(place, f"{dotted(place)}: {error}")
+    named: KeyPath = (*at, "name")
+    reason = f"it cannot be built: {type(error).__name__}: {error}"
+    return Fault(named, f"{dotted(named)} = {component.name!r}: {reason}")

@@ -3,50 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import Any, TypeVar
+from typing import Any, cast
 
 import numpy as np
 from pydantic import ValidationError
 
-from cowalk.agents.registry import AUTOMATIONS, HUMANS, IMPERFECTIONS
-from cowalk.estimation.registry import OBSERVERS, SMOOTHERS
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.registry import Registry
 from cowalk.sim.env.configuration import require_reachable
-from cowalk.sim.plant.registry import PLANTS
-from cowalk.sim.sensor.parameters import SensorParameters
-from cowalk.sim.sensor.presets import sensor_preset
+from cowalk.sim.plant.protocol import Plant
 from cowalk.sim.world.contact import blocked_start
 
 from ..trace.trace import UNITS
-from .building import attempt, check_parameters, complete
+from .assembling import assemble, elsewhere, surroundings
+from .building import check_parameters
 from .documents import Document, Fault, KeyPath, dotted
-from .human_seat import attempt_human
-from .overrides import component_sections
-from .schema import Component, Scenario
+from .overrides import sections
+from .parts import Part, parts, roots
+from .schema import Component, Scenario, scenario_model, section_model
 from .validation import validate
-
-C = TypeVar("C", bound=Component)
-
-REGISTRIES: dict[str, Registry[Any]] = {
-    "plant": PLANTS,
-    "human": HUMANS,
-    "human.imperfections": IMPERFECTIONS,
-    "automation": AUTOMATIONS,
-    "automation.smoother": SMOOTHERS,
-    "automation.observer": OBSERVERS,
-}
-"""Where the components of each section are looked up."""
-
-SHARED = {
-    "plant": ("rates", "gui"),
-    "human": ("intention",),
-    "human.imperfections": ("human",),
-    "automation": ("negotiation", "smoother", "observer"),
-    "automation.smoother": (),
-    "automation.observer": (),
-}
-"""Constructor arguments that come from elsewhere in the scenario."""
 
 
 def check(document: Document) -> tuple[Scenario | None, list[Fault]]:
@@ -54,14 +29,19 @@ def check(document: Document) -> tuple[Scenario | None, list[Fault]]:
     if document.data is None and document.problems:
         return None, document.problems
     if not isinstance(document.data, dict):
-        keys = ", ".join(name for name, item in Scenario.model_fields.items() if item.is_required())
+        fields = scenario_model().model_fields.items()
+        keys = ", ".join(name for name, item in fields if item.is_required())
         return None, [Fault((), f"this holds no scenario; it needs at least the keys {keys}")]
-    data, unknown = _with_preset(document.data)
-    scenario, problems = validate(Scenario, data)
+    data, unknown = document.data, []
+    for part in parts():
+        if part.preset:
+            data, faults = _with_preset(part, data)
+            unknown += faults
+    scenario, problems = validate(scenario_model(), data)
     problems += unknown
     known = {problem.path for problem in problems}
-    parts = (*_components(document.data, scenario), *_formulas(document.data, scenario))
-    problems += [problem for problem in parts if problem.path not in known]
+    inner = (*_components(document.data, scenario), *_formulas(document.data, scenario))
+    problems += [problem for problem in inner if problem.path not in known]
     problems += document.problems
     if scenario is not None:
         try:
@@ -77,76 +57,49 @@ def check(document: Document) -> tuple[Scenario | None, list[Fault]]:
     return scenario, problems
 
 
-def _with_preset(data: dict[str, Any]) -> tuple[dict[str, Any], list[Fault]]:
-    """Return the data with the sensor's preset written out beneath what is given beside it."""
-    section = data.get("sensor", {})
+def _with_preset(part: Part, data: dict[str, Any]) -> tuple[dict[str, Any], list[Fault]]:
+    """Return the data with a preset written out beneath what is given beside it."""
+    section = data.get(part.key, {})
     if section is None or section is False:  # as YAML reads "off"
-        return {**data, "sensor": {}}, []
-    if not isinstance(section, dict) or "preset" not in section:
+        return {**data, part.key: {}}, []
+    if not isinstance(section, dict) or part.named_by not in section:
         return data, []
-    given = {key: value for key, value in section.items() if key != "preset"}
-    named = section["preset"]
+    given = {key: value for key, value in section.items() if key != part.named_by}
+    named = section[part.named_by]
+    at: KeyPath = (part.key, part.named_by)
     try:
-        preset = asdict(sensor_preset("none" if named in (None, False) else str(named)))
+        preset = asdict(part.registry().get("none" if named in (None, False) else str(named)))
     except InputError as error:
-        return {**data, "sensor": given}, [Fault(("sensor", "preset"), f"sensor.preset: {error}")]
-    off = asdict(SensorParameters())
+        return {**data, part.key: given}, [Fault(at, f"{dotted(at)}: {error}")]
+    off = asdict(cast(Any, section_model(part))())
     changed = {key: value for key, value in preset.items() if value != off[key]}
-    return {**data, "sensor": changed | given}, []
-
-
-def resolve(scenario: Scenario) -> Scenario:
-    """Return the scenario with the default parameters of its parts written out.
-
-    A file of it gives the same run even after a default has changed.
-    """
-
-    def full(component: C, section: str) -> C:
-        parameters = complete(REGISTRIES[section], component, SHARED[section])
-        return component.model_copy(update={"parameters": parameters})
-
-    seat = scenario.automation
-    automation = full(seat, "automation").model_copy(
-        update={
-            "smoother": full(seat.smoother, "automation.smoother"),
-            "observer": full(seat.observer, "automation.observer"),
-        }
-    )
-    imperfections = tuple(
-        full(item, "human.imperfections") for item in scenario.human.imperfections
-    )
-    human = full(scenario.human, "human").model_copy(update={"imperfections": imperfections})
-    return scenario.model_copy(
-        update={
-            "plant": full(scenario.plant, "plant"),
-            "human": human,
-            "automation": automation,
-        }
-    )
+    return {**data, part.key: changed | given}, []
 
 
 def _components(data: dict[str, Any], scenario: Scenario | None) -> list[Fault]:
     """Return the problems of all named parts; they are built if everything around is right."""
     problems: list[Fault] = []
-    for _, path, value in component_sections(data):
-        section = dotted(path)
-        kind = dotted(tuple(step for step in path if isinstance(step, str)))
+    for part, _, path, value in sections(data):
+        if part.preset:
+            continue
         try:
             component = Component(name=value["name"], parameters=value.get("parameters") or {})
         except (ValidationError, TypeError, KeyError):
             continue  # reported as a fault of the schema already
-        problems += check_parameters(REGISTRIES[kind], component, section, SHARED[kind])
+        registry = cast("Registry[Any]", part.registry())
+        problems += check_parameters(registry, component, path, elsewhere(part, path))
     if not problems and scenario is not None:
-        problems += _agents(scenario)
-        problems += _start(scenario)
+        around = surroundings(scenario)
+        for part in roots():
+            component = getattr(scenario, part.key)
+            made = assemble(part, component, around, part.section, problems)
+            if part.kind == "plant" and made is not None:
+                problems += _start(scenario, made)
     return problems
 
 
-def _start(scenario: Scenario) -> list[Fault]:
-    """Return why the plant cannot be built, or why its bodies cannot stand at the start."""
-    plant = attempt(PLANTS, scenario.plant, "plant", rates=scenario.rates)
-    if isinstance(plant, Fault):
-        return [plant]
+def _start(scenario: Scenario, plant: Plant) -> list[Fault]:
+    """Return why the bodies of a plant cannot stand at the start; it is closed."""
     world = scenario.world
     try:
         state = plant.reset(world, np.random.default_rng(scenario.seed))
@@ -159,22 +112,6 @@ def _start(scenario: Scenario) -> list[Fault]:
         return [Fault(("plant", "name"), f"plant.name = {scenario.plant.name!r}: {reason}")]
     finally:
         plant.close()
-
-
-def _agents(scenario: Scenario) -> list[Fault]:
-    """Return why the agents cannot be built: a value that only its constructor can judge."""
-    seat = scenario.automation
-    shared: dict[str, Any] = {
-        "negotiation": seat.negotiation,
-        "smoother": attempt(SMOOTHERS, seat.smoother, "automation.smoother"),
-        "observer": attempt(OBSERVERS, seat.observer, "automation.observer"),
-    }
-    built = (
-        attempt_human(scenario.human, scenario.plant.name, scenario.rates.period),
-        *shared.values(),
-        attempt(AUTOMATIONS, seat, "automation", **shared),
-    )
-    return [part for part in built if isinstance(part, Fault)]
 
 
 def _too_late(scenario: Scenario) -> list[Fault]:

@@ -9,8 +9,9 @@ from typing import Any, TypeVar
 
 import yaml
 
+from cowalk.sim.basics.errors import InputError, Step
+
 R = TypeVar("R", bound=yaml.resolver.BaseResolver)
-Step = str | int
 KeyPath = tuple[Step, ...]
 """Where something stands in a document: keys and list indices from the top."""
 
@@ -27,7 +28,7 @@ def knows_exponents(kind: type[R]) -> type[R]:
 
 @knows_exponents
 class Loader(yaml.SafeLoader):
-    """Reads scenario files, populations and the values of ``--set``."""
+    """Reads scenario files, populations and the values of overrides."""
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,10 @@ class Fault:
 
     path: KeyPath
     message: str
+
+    def error(self) -> InputError:
+        """Return it as an error at its place."""
+        return InputError(self.message, self.path)
 
 
 @dataclass

@@ -4,22 +4,22 @@ from __future__ import annotations
 
 import dataclasses
 import math
-import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import yaml
 from pydantic import BaseModel
 
 from cowalk.sim.basics.errors import InputError
+from cowalk.sim.basics.own_modules import look_in
 from cowalk.sim.basics.registry import did_you_mean
 
 from .diagnosis import check
 from .documents import Document, KeyPath, dotted, knows_exponents, parse
-from .overrides import expand_names, override
+from .overrides import Change, Dropped, OverrideError, expand_names, override
 from .schema import SUFFIX, Scenario
 
 
@@ -82,33 +82,88 @@ def load(source: str | Path, overrides: Sequence[str] = ()) -> Scenario:
     source : str or Path
         Name in the library, or path of a YAML file.
     overrides : sequence of str
-        ``dotted.key=VALUE``, the value in YAML, list entries by their index. A component set
-        to a name alone is swapped (see `cowalk.scenarios.files.overrides.override`).
+        ``dotted.key=VALUE``, the value in YAML, list entries by their index. A part set to
+        another name is swapped (see `cowalk.scenarios.files.overrides.override`).
 
     Raises
     ------
     InputError
         If the file or an override is not right: the first fault, in one line.
     """
+    return read(source, overrides).scenario
+
+
+@dataclass(frozen=True)
+class Reading:
+    """A scenario, and where what it says comes from.
+
+    Attributes
+    ----------
+    scenario : Scenario
+    given : dict
+        "file" or "flag" by the place of every value that the file, or an override, gives.
+    dropped : tuple of Dropped
+        What went when a part was swapped.
+    """
+
+    scenario: Scenario
+    given: dict[KeyPath, Literal["file", "flag"]]
+    dropped: tuple[Dropped, ...]
+
+
+def read(source: str | Path, overrides: Sequence[str] = ()) -> Reading:
+    """Return a scenario as `load` does, and where what it says comes from.
+
+    Raises
+    ------
+    InputError
+        See `load`; an `OverrideError` where an override is to blame.
+    """
     file = find(source)
     document = read_document(file)
     expand_names(document.data)
-    overridden: dict[KeyPath, str] = {}
+    given: dict[KeyPath, Literal["file", "flag"]] = {}
+    given |= {path: "file" for path, _ in leaves(document.data)}
+    changes: list[Change] = []
     if isinstance(document.data, dict) and not document.problems:
-        for assignment in overrides:
-            overridden[override(document.data, assignment)] = assignment
+        for number, assignment in enumerate(overrides):
+            changes.append(override(document.data, assignment, number))
             expand_names(document.data)
+            there = [path for path, _ in leaves(document.data)]
+            given = {path: given[path] for path in there if path in given}
+            for written in changes[-1].written:
+                given |= {path: "flag" for path in there if path[: len(written)] == written}
     scenario, problems = check(document)
     if problems:
         first = min(problems, key=lambda problem: document.line(problem.path))
-        where = next(
-            (f"--set {text}" for path, text in overridden.items() if _touch(path, first.path)),
-            f"{file}:{document.line(first.path)}",
-        )
         more = f" (+{len(problems) - 1} more; see cowalk check {file})" if problems[1:] else ""
-        raise InputError(f"{where}: {first.message}{more}")
+        blamed = [
+            (len(change.path), number)
+            for number, change in enumerate(changes)
+            if _touch(change.path, first.path)
+        ]
+        if blamed:  # the one that says most exactly where
+            number = max(blamed)[1]
+            raise OverrideError(overrides[number], f"{first.message}{more}", number)
+        raise InputError(f"{file}:{document.line(first.path)}: {first.message}{more}")
     assert scenario is not None
-    return scenario
+    return Reading(
+        scenario,
+        given,
+        tuple(dropped for change in changes for dropped in change.dropped),
+    )
+
+
+def leaves(value: Any, path: KeyPath = ()) -> Iterator[tuple[KeyPath, Any]]:
+    """Yield place and value of what is neither a section nor a list of them in plain data."""
+    if isinstance(value, dict) and value:
+        for key, item in value.items():
+            yield from leaves(item, (*path, str(key)))
+    elif isinstance(value, list) and any(isinstance(item, list | dict) for item in value):
+        for index, item in enumerate(value):
+            yield from leaves(item, (*path, index))
+    else:
+        yield path, value
 
 
 def _touch(one: KeyPath, other: KeyPath) -> bool:
@@ -141,10 +196,7 @@ def read_document(file: Path) -> Document:
     InputError
         If the file cannot be read.
     """
-    # `module:Class` is looked for beside the file, wherever it is run from.
-    folder = str(file.resolve().parent)
-    if folder not in sys.path:
-        sys.path.append(folder)
+    look_in(file.resolve().parent)  # for `module:Class`, wherever it is run from
     try:
         return parse(file.read_text(encoding="utf-8"))
     except OSError as error:
@@ -153,10 +205,10 @@ def read_document(file: Path) -> Document:
         raise InputError(f"{file}: this is not text in UTF-8; is it a YAML file?") from error
 
 
-def to_yaml(scenario: Scenario) -> str:
+def to_yaml(scenario: Scenario, width: int = 100) -> str:
     """Return a scenario as YAML that loads as an equal one, every default written out."""
     text: str = yaml.dump(
-        _plain(scenario), Dumper=_Dumper, sort_keys=False, allow_unicode=True, width=100
+        plain(scenario), Dumper=_Dumper, sort_keys=False, allow_unicode=True, width=width
     )
     return text
 
@@ -174,21 +226,21 @@ def _represent_list(dumper: yaml.SafeDumper, items: list[Any]) -> yaml.Node:
 _Dumper.add_representer(list, _represent_list)
 
 
-def _plain(value: Any) -> Any:
+def plain(value: Any) -> Any:
     """Return sections as mappings and tuples as lists, without what a section derives.
 
     No file holds an infinite number: a limit that is not there is left out.
     """
     if isinstance(value, BaseModel):
-        return {name: _plain(getattr(value, name)) for name in type(value).model_fields}
+        return {name: plain(getattr(value, name)) for name in type(value).model_fields}
     if dataclasses.is_dataclass(value):
         return {
-            item.name: _plain(getattr(value, item.name))
+            item.name: plain(getattr(value, item.name))
             for item in dataclasses.fields(value)
             if item.init and getattr(value, item.name) != math.inf
         }
     if isinstance(value, dict):
-        return {key: _plain(item) for key, item in value.items()}
+        return {key: plain(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
+        return [plain(item) for item in value]
     return value

@@ -1,8 +1,9 @@
-"""Single values of a scenario replaced from outside: ``human.parameters.gain=1.5``."""
+"""Values of a scenario replaced from outside: ``human.parameters.gain=1.5``, ``human=steady``."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass, field
 from typing import Any
 
 import yaml
@@ -10,53 +11,134 @@ import yaml
 from cowalk.sim.basics.errors import InputError
 
 from .documents import KeyPath, Loader, dotted
-
-COMPONENTS: tuple[tuple[str, ...], ...] = (
-    ("plant",),
-    ("human",),
-    ("automation",),
-    ("automation", "smoother"),
-    ("automation", "observer"),
-)
-"""Sections that name a replaceable part; outer ones first."""
-COMPONENT_LISTS: tuple[tuple[str, ...], ...] = (("human", "imperfections"),)
-"""Lists of such sections."""
+from .parts import NAME, PARAMETERS, Part, part_at, parts
+from .schema import scenario_model
+from .validation import known_keys
 
 
-def component_sections(data: Any) -> Iterator[tuple[Any, KeyPath, Any]]:
-    """Yield the parent, the path and the value of every component that data give."""
-    for path in (*COMPONENTS, *COMPONENT_LISTS):
-        parent = data
-        for step in path[:-1]:
-            parent = parent.get(step) if isinstance(parent, dict) else None
-        if not isinstance(parent, dict) or path[-1] not in parent:
+class OverrideError(InputError):
+    """An override is wrong.
+
+    Parameters
+    ----------
+    assignment : str
+        The override as it was given.
+    reason : str
+        What is wrong with it, in one line.
+    number : int
+        Which of the overrides it is, from 0.
+    """
+
+    def __init__(self, assignment: str, reason: str, number: int = 0) -> None:
+        super().__init__(f"{assignment}: {reason}")
+        self.assignment, self.reason, self.number = assignment, reason, number
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.assignment, self.reason, self.number)
+
+
+@dataclass(frozen=True)
+class Dropped:
+    """What went with the old name when a part was swapped.
+
+    Attributes
+    ----------
+    section : tuple of str and int
+        Where the part is.
+    old, new : str
+        The names; ``old`` is empty where the values had no name.
+    keys : tuple of str
+        What the file says of the old part and the new one does not get.
+    """
+
+    section: KeyPath
+    old: str
+    new: str
+    keys: tuple[str, ...]
+
+    def __str__(self) -> str:
+        of = f" of {self.old!r}" if self.old else ""
+        lost = ", ".join(self.keys)
+        return f"{dotted(self.section)} is now {self.new!r}: dropped what was said{of}: {lost}"
+
+
+@dataclass
+class Change:
+    """What an override did.
+
+    Attributes
+    ----------
+    path : tuple of str and int
+        Where its key is.
+    written : list of tuple
+        Where it wrote: nowhere if everything was so already.
+    dropped : list of Dropped
+    """
+
+    path: KeyPath = ()
+    written: list[KeyPath] = field(default_factory=list)
+    dropped: list[Dropped] = field(default_factory=list)
+
+
+def sections(data: Any) -> Iterator[tuple[Part, Any, KeyPath, Any]]:
+    """Yield the row, the container, the path and the value of every part that data name."""
+    for part in parts():
+        holder = data
+        for step in part.section[:-1]:
+            holder = holder.get(step) if isinstance(holder, dict) else None
+        if not isinstance(holder, dict) or part.key not in holder:
             continue
-        value = parent[path[-1]]
-        if path in COMPONENTS:
-            yield parent, path, value
+        value = holder[part.key]
+        if not part.many:
+            yield part, holder, part.section, value
         elif isinstance(value, list):
             for index, item in enumerate(value):
-                yield value, (*path, index), item
+                yield part, value, (*part.section, index), item
 
 
 def expand_names(data: Any) -> None:
-    """Turn every component given by its name alone into a section with a name, in place.
+    """Turn every part given by its name alone into a section with a name, in place.
 
-    A sensor given by its name alone becomes a section with a ``preset``.
+    A section without a name gets the one that a scenario without the section has.
     """
-    if isinstance(data, dict) and isinstance(data.get("sensor"), str):
-        data["sensor"] = {"preset": data["sensor"]}
-    for parent, path, value in component_sections(data):
+    for part, holder, path, value in sections(data):
         if isinstance(value, str):
-            parent[path[-1]] = {"name": value}
+            holder[path[-1]] = {part.named_by: value}
+        elif isinstance(value, dict) and part.default:
+            value.setdefault(part.named_by, part.default)
 
 
-def override(data: dict[str, Any], assignment: str) -> KeyPath:
-    """Replace one value of plain data in place, and return where it stands.
+def parsed(assignment: str, number: int = 0) -> tuple[KeyPath, bool, Any]:
+    """Return the steps of an assignment's key, whether it replaces all there is, and its value.
 
-    A component set to a name alone is swapped: its ``parameters`` go with the old name, what
-    else its section holds (``intention``, ``imperfections``, ``negotiation``, ``smoother``,
-    ``observer``) stays.
+    Raises
+    ------
+    OverrideError
+        If it is no assignment.
+    """
+    key, equals, text = assignment.partition("=")
+    whole = key.endswith(":")
+    steps = key.removesuffix(":").strip().split(".")
+    if not equals or not all(steps):
+        raise OverrideError(
+            assignment, "write KEY=VALUE, such as human.parameters.gain=1.5", number
+        )
+    try:
+        return tuple(steps), whole, yaml.load(text, Loader)
+    except yaml.YAMLError as error:
+        raise OverrideError(assignment, f"{text!r} is not a YAML value", number) from error
+
+
+def override(data: dict[str, Any], assignment: str, number: int = 0) -> Change:
+    """Replace a value of plain data in place, and return what was done.
+
+    A mapping is merged into a section whose keys are fixed: a part and its ``parameters``,
+    ``sensor``, ``negotiation``, an obstacle. Lists, and mappings whose keys the user names
+    (``expect``), are replaced; ``KEY={}`` empties a section, ``KEY:=VALUE`` replaces anything.
+
+    A part set to the name that it has stays as it is. Set to another one it is swapped: its
+    ``parameters`` go with the old name, what else its section holds (``intention``,
+    ``negotiation``, other parts) stays. Of a preset everything goes.
 
     Parameters
     ----------
@@ -64,52 +146,86 @@ def override(data: dict[str, Any], assignment: str) -> KeyPath:
         Plain data of a scenario, names expanded.
     assignment : str
         ``dotted.key=VALUE``, the value in YAML; list entries by their index from 0.
+    number : int
+        Which of the overrides it is, for errors.
 
     Raises
     ------
-    InputError
+    OverrideError
         If it is no assignment, or the key cannot be there.
     """
-    key, equals, text = assignment.partition("=")
-    steps = key.strip().split(".")
-    if not equals or not all(steps):
-        raise InputError(f"--set {assignment}: write KEY=VALUE, such as human.parameters.gain=1.5")
-    try:
-        value = yaml.load(text, Loader)
-    except yaml.YAMLError as error:
-        raise InputError(f"--set {assignment}: {text!r} is not a YAML value") from error
+    steps, whole, value = parsed(assignment, number)
+    change = Change()
     place: Any = data
-    path: KeyPath = ()
     for step, following in zip(steps, [*steps[1:], None], strict=True):
-        inside, path = _step(place, path, step, assignment)
+        try:
+            inside, change.path = _step(place, change.path, str(step))
+        except InputError as error:
+            raise OverrideError(assignment, str(error), number) from error
         if following is None:
-            _assign(place, inside, value, tuple(steps))
+            change_in = _replaced if whole else _merged
+            place[inside] = change_in(place[inside], value, change.path, change)
         elif place[inside] is None:
             place[inside] = {}  # a section left out, all of its keys at their defaults
         place = place[inside]
-    return path
+    return change
 
 
-def _step(place: Any, path: KeyPath, step: str, assignment: str) -> tuple[Any, KeyPath]:
+def _step(place: Any, path: KeyPath, step: str) -> tuple[Any, KeyPath]:
     """Return the key or index of a step into a container, made ready to be written."""
     where = dotted(path) or "the scenario"
     if isinstance(place, dict):
         place.setdefault(step, None)
         return step, (*path, step)
     if not isinstance(place, list):
-        raise InputError(f"--set {assignment}: {where} is {place!r}, there is nothing inside it")
+        raise InputError(f"{where} is {place!r}, there is nothing inside it")
     if not step.isdecimal() or int(step) >= len(place):
         there = f"{len(place)} entries, 0 to {len(place) - 1}" if place else "no entries"
-        raise InputError(f"--set {assignment}: {where} has {there}; {step!r} is none of them")
+        raise InputError(f"{where} has {there}; {step!r} is none of them")
     return int(step), (*path, int(step))
 
 
-def _assign(place: Any, inside: Any, value: Any, steps: tuple[str, ...]) -> None:
-    old = place[inside]
-    if steps in COMPONENTS and isinstance(value, str) and isinstance(old, dict):
-        kept = {key: item for key, item in old.items() if key != "parameters"}
-        place[inside] = kept | {"name": value}
-    elif steps == ("sensor",) and isinstance(value, str):
-        place[inside] = {"preset": value}
-    else:
-        place[inside] = value
+def _replaced(old: Any, new: Any, path: KeyPath, change: Change) -> Any:
+    change.written.append(path)
+    return new
+
+
+def _merged(old: Any, new: Any, path: KeyPath, change: Change) -> Any:
+    """Return a value with another one in its place, or merged into it."""
+    part = part_at(path)
+    if part is not None and part.preset and new in (None, False):  # as YAML reads "off"
+        new = "none"
+    if part is not None and isinstance(new, str):
+        new = {part.named_by: new}
+    both = bool(new) and isinstance(old, dict) and isinstance(new, dict)
+    if not (both and _keys_are_fixed(path)):
+        if old is None or old != new or type(old) is not type(new):
+            change.written.append(path)
+        return new
+    kept = _without_dropped(part, old, new, path, change) if part is not None else old
+    merged = {key: _merged(kept.get(key), new[key], (*path, key), change) for key in new}
+    return {**kept, **merged}
+
+
+def _keys_are_fixed(path: KeyPath) -> bool:
+    """Return whether the keys of a section are not for the user to name."""
+    for end in range(1, len(path)):
+        if path[end] == PARAMETERS and part_at(path[:end]):
+            return True  # fixed by the constructor
+    return bool(known_keys(scenario_model(), path))
+
+
+def _without_dropped(
+    part: Part, old: dict[str, Any], new: dict[str, Any], path: KeyPath, change: Change
+) -> dict[str, Any]:
+    """Return a part's section without what goes with its old name, if it gets another one."""
+    before = old.get(part.named_by)
+    name = new.get(part.named_by, before)
+    if name == before or not isinstance(name, str):
+        return old
+    lost = old if part.preset else (old.get(PARAMETERS) or {})
+    keys = tuple(key for key in lost if key != part.named_by)
+    if keys:
+        change.dropped.append(Dropped(path, before or "", name, keys))
+    gone = {*old} if part.preset else {NAME, PARAMETERS}
+    return {key: item for key, item in old.items() if key not in gone}

@@ -14,9 +14,10 @@ import yaml
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
+from cowalk.sim.basics.errors import InputError, Step
 from cowalk.sim.basics.registry import did_you_mean
 
-from .documents import Fault, KeyPath, Step, dotted, not_plain
+from .documents import Fault, KeyPath, dotted, not_plain
 
 M = TypeVar("M", bound=BaseModel)
 
@@ -67,9 +68,10 @@ def validate(model: type[M], data: Any, at: KeyPath = ()) -> tuple[M | None, lis
             if _follows(details):
                 continue
             path = _place(details, data)
-            message = _message(details, path, at, model)
-            path = (*path, *_blamed(details))
-            found.setdefault((*at, *path), Fault((*at, *path), message))
+            fault = _refusal(details, path, at) or Fault(
+                (*at, *path), _message(details, path, at, model)
+            )
+            found.setdefault(fault.path, fault)
     return (None if found else validated), list(found.values())
 
 
@@ -101,23 +103,29 @@ def _message(details: ErrorDetails, path: KeyPath, at: KeyPath, model: type[Base
         known = known_keys(model, path[:-1])
         hint = did_you_mean(str(path[-1]), known) if known else "nothing can be set here"
         return f"{key}: unknown key; {hint}"
-    if kind == "value_error":
-        reason = str(details["ctx"]["error"])
-        if _blamed(details):
-            return f"{key}.{reason}" if key else reason
-        return reason if key and reason.startswith(key) else f"{key}: {reason}"
     cure = _cure(details)
     if kind == "tuple_type" and (length := _length(model, path)):
         cure = cure.replace("a list", f"a list of {length}", 1)
     return f"{key}{equals(value)}: {cure}"
 
 
-def _blamed(details: ErrorDetails) -> KeyPath:
-    """Return the key within a section that the section's own check begins its message with."""
-    if details["type"] != "value_error" or not isinstance(details["input"], dict):
-        return ()
-    first = str(details["ctx"]["error"]).partition(" ")[0].rstrip(":,")
-    return (first,) if first in details["input"] else ()
+def _refusal(details: ErrorDetails, path: KeyPath, at: KeyPath) -> Fault | None:
+    """Return what the check of a section, or of a single value, says: at the place it names."""
+    if details["type"] != "value_error":
+        return None
+    said = details["ctx"]["error"]
+    error = said if isinstance(said, InputError) else InputError(str(said))
+    if not error.at:  # TEMPORARY, until every constructor gives the place
+        first = str(error).partition(" ")[0].rstrip(":,")
+        if isinstance(details["input"], dict) and first in details["input"]:
+            error = InputError(str(error), (first,))
+        elif path and first == dotted((*at, *path)):
+            error = InputError(str(error), (path[-1],))
+    if error.at and path[-len(error.at) :] == error.at and not isinstance(details["input"], dict):
+        path = path[: -len(error.at)]  # who judges a single value names it
+    place = (*at, *path)
+    inner = error.inside(*place) if place else error
+    return Fault(inner.at, str(inner))
 
 
 def equals(value: Any) -> str:

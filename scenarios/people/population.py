@@ -11,7 +11,6 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
-from cowalk.agents.humans.open_loop import OpenLoopHuman
 from cowalk.agents.imperfections.wrapper import Imperfection
 from cowalk.agents.registry import IMPERFECTIONS
 from cowalk.sim.basics.errors import InputError
@@ -19,11 +18,11 @@ from cowalk.sim.basics.rates import Rates
 from cowalk.sim.basics.registry import did_you_mean
 from cowalk.sim.plant.registry import PLANTS
 
+from ..files.assembling import build_human, unsuited
 from ..files.documents import Document, Fault, KeyPath, dotted
-from ..files.human_seat import attempt_human, unsuited
 from ..files.loading import read_document
 from ..files.overrides import expand_names
-from ..files.schema import HumanComponent
+from ..files.schema import HumanComponent, human_model
 from ..files.validation import validate
 from .distribution import KEY, Distribution
 
@@ -105,12 +104,12 @@ class Population(BaseModel):
                 item
                 for item in drawn["imperfections"]
                 if not unsuited(
-                    wrappers[item["name"]](OpenLoopHuman(), **item.get("parameters", {})),
+                    wrappers[item["name"]](None, **item.get("parameters", {})),
                     plant,
                     _RATES.period,
                 )
             ]
-            people.append(HumanComponent.model_validate(drawn))
+            people.append(human_model().model_validate(drawn))
         return people
 
 
@@ -243,8 +242,11 @@ def _group_problems(section: dict[str, Any]) -> list[Fault]:
 
 def _human_problems(section: dict[str, Any]) -> list[Fault]:
     """Return what keeps one human from being built, paths from ``human`` on."""
-    component, problems = validate(HumanComponent, section, ("human",))
+    component, problems = validate(human_model(), section, ("human",))
     if component is None:
         return problems
-    built = attempt_human(component, "unicycle", _RATES.period)
-    return [built] if isinstance(built, Fault) else []
+    try:
+        build_human(component, "unicycle", _RATES.period)
+    except InputError as error:
+        return [Fault(error.at, str(error))]
+    return []

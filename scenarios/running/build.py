@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from cowalk.agents.basics.protocols import Automation, Human
-from cowalk.agents.registry import AUTOMATIONS
-from cowalk.estimation.registry import OBSERVERS, SMOOTHERS
 from cowalk.sim.env.env import CowalkEnv
 
-from ..files.building import build
-from ..files.human_seat import build_human
+from ..files.assembling import build_part
 from ..files.loading import load
 from ..files.schema import Scenario
 
@@ -51,14 +48,4 @@ def build_agents(scenario: Scenario) -> tuple[Human, Automation]:
     InputError
         If a name or a parameter is not right.
     """
-    human = build_human(scenario.human, scenario.plant.name, scenario.rates.period)
-    seat = scenario.automation
-    automation = build(
-        AUTOMATIONS,
-        seat,
-        "automation",
-        negotiation=seat.negotiation,
-        smoother=build(SMOOTHERS, seat.smoother, "automation.smoother"),
-        observer=build(OBSERVERS, seat.observer, "automation.observer"),
-    )
-    return human, automation
+    return build_part(scenario, "human"), build_part(scenario, "automation")

@@ -21,6 +21,7 @@ from cowalk.sim.env.env import CowalkEnv
 
 from ..expect.verdict import judge
 from ..export.json_ready import json_ready
+from ..files.assembling import named_parts
 from ..files.schema import Scenario
 from ..trace.metrics import metrics
 from ..trace.result import RunResult
@@ -228,11 +229,7 @@ def _result(
     simulated = len(trace) * period
     summary = {
         "scenario": scenario.name,
-        "plant": scenario.plant.name,
-        "human": scenario.human.name,
-        "automation": scenario.automation.name,
-        "smoother": scenario.automation.smoother.name,
-        "observer": scenario.automation.observer.name,
+        **named_parts(scenario),
         "seed": scenario.seed,
         "end": end,
         "error": error,

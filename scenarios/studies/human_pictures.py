@@ -12,9 +12,9 @@ from cowalk.sim.basics.errors import InputError
 
 from ..export.folder import writable_folder
 from ..figures.humans import draw_human, draw_imperfection
-from ..files.human_seat import build_human
-from ..files.overrides import expand_names, override
-from ..files.schema import HumanComponent
+from ..files.assembling import build_human
+from ..files.overrides import OverrideError, expand_names, override
+from ..files.schema import HumanComponent, human_model
 from ..files.validation import validate
 from ..people.responses import SITUATION, answer, draws, push
 
@@ -37,19 +37,19 @@ def human_section(
     """
     data = {"human": {"name": name, "imperfections": list(imperfections)}}
     expand_names(data)
-    for assignment in assignments:
-        override(data, assignment)
-    if list(data) != ["human"]:
-        raise InputError(f"--set: only keys of human can be set here, not {list(data)[-1]}")
-    expand_names(data)
-    component, problems = validate(HumanComponent, data["human"], ("human",))
+    for number, assignment in enumerate(assignments):
+        change = override(data, assignment, number)
+        expand_names(data)
+        if change.path[0] != "human":
+            raise OverrideError(assignment, "only keys of human can be set here", number)
+        if data["human"]["name"] != name:
+            other = (
+                f"the model is named as the argument; cowalk humans show {data['human']['name']}"
+            )
+            raise OverrideError(assignment, other, number)
+    component, problems = validate(human_model(), data["human"], ("human",))
     if component is None:
-        raise InputError(problems[0].message)
-    if component.name != name:
-        raise InputError(
-            f"--set human.name={component.name}: the model is named as the argument; "
-            f"cowalk humans show {component.name}"
-        )
+        raise problems[0].error()
     return component
 
 

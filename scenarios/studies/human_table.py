@@ -18,7 +18,7 @@ from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.world.world import World
 
-from ..files.schema import Component, HumanComponent, Scenario
+from ..files.schema import Component, Scenario, with_named
 from ..running.runner import run
 
 AUTOMATIONS_COMPARED = ("never-yields", "always-yields", "stubbornness")
@@ -89,9 +89,9 @@ def compare_humans(
 ) -> list[Cell]:
     """Run every human model with every automation.
 
-    All models keep the scenario's intention and imperfections (`BODY` where it has none) and
-    have their default parameters. From seed to seed the obstacles lie elsewhere, the same for
-    every pair.
+    All models keep the scenario's intention and imperfections (`BODY` where it has none). The
+    scenario's own human and automation keep their parameters, the others have defaults. From
+    seed to seed the obstacles lie elsewhere, the same for every pair.
 
     Parameters
     ----------
@@ -117,7 +117,9 @@ def compare_humans(
         run was aborted.
     """
     if seeds < 2:
-        raise InputError(f"-n {seeds}: at least 2 seeds are needed for an interval")
+        raise InputError(
+            f"seeds = {seeds}: at least 2 seeds are needed for an interval", ("seeds",)
+        )
     names = humans or [n for n in HUMANS if getattr(HUMANS.get(n), "closed_loop", True)]
     pairs = [(human, automation) for human in names for automation in automations]
     tasks = [(*pair, scenario.seed + offset) for pair in pairs for offset in range(seeds)]
@@ -147,20 +149,12 @@ def _measure(
     scenario: Scenario, human: str, automation: str, seed: int
 ) -> tuple[tuple[float, ...], str]:
     """Return the `METRICS` of one run, and how it ended."""
-    section = scenario.human
-    person = HumanComponent(
-        name=human,
-        intention=section.intention,
-        imperfections=section.imperfections or tuple(Component(name=name) for name in BODY),
-    )
-    strategy = scenario.automation
-    if strategy.name != automation:
-        strategy = strategy.model_copy(update={"name": automation, "parameters": {}})
+    scenario = with_named(with_named(scenario, "human", human), "automation", automation)
+    body = scenario.human.imperfections or tuple(Component(name=name) for name in BODY)
     result = run(
         scenario.model_copy(
             update={
-                "human": person,
-                "automation": strategy,
+                "human": scenario.human.model_copy(update={"imperfections": body}),
                 "seed": seed,
                 "world": _shifted(scenario.world, seed),
                 "expect": {},
@@ -275,10 +269,9 @@ def marked_document(file: Path) -> str:
     try:
         document = file.read_text(encoding="utf-8")
     except OSError as error:
-        raise InputError(f"--write {file}: cannot be read ({error.strerror})") from error
+        raise InputError(f"{file}: cannot be read ({error.strerror})") from error
     if not _PLACE.search(document):
         raise InputError(
-            f"--write {file}: no place for the table; add the lines <!-- {MARK} --> and "
-            f"<!-- /{MARK} -->"
+            f"{file}: no place for the table; add the lines <!-- {MARK} --> and <!-- /{MARK} -->"
         )
     return document

@@ -12,7 +12,7 @@ from cowalk.estimation.registry import SMOOTHERS
 from cowalk.estimation.scores.error import bias, lag, rmse
 from cowalk.sim.basics.errors import InputError
 
-from ..files.schema import Component, Scenario
+from ..files.schema import Scenario, with_named
 from ..running.runner import run
 
 PAPERS = "moving-average"
@@ -80,7 +80,7 @@ def compare_smoothers(
         If there is not at least one seed, or a run was aborted.
     """
     if seeds < 1:
-        raise InputError(f"-n {seeds}: at least 1 seed is needed")
+        raise InputError(f"seeds = {seeds}: at least 1 seed is needed", ("seeds",))
     names = sorted(SMOOTHERS, key=lambda name: (name != PAPERS, name))
     tasks = [(name, scenario.seed + offset) for name in names for offset in range(seeds)]
     outcomes = Parallel(n_jobs=jobs, return_as="generator")(
@@ -96,10 +96,8 @@ def compare_smoothers(
 
 def _scores(scenario: Scenario, smoother: str, seed: int) -> tuple[float, ...]:
     """Return (rmse, bias, lag, delay, unsmoothed rmse) of one run."""
-    current = scenario.automation.smoother
-    chosen = current if current.name == smoother else Component(name=smoother)
-    automation = scenario.automation.model_copy(update={"smoother": chosen})
-    result = run(scenario.model_copy(update={"automation": automation, "seed": seed}))
+    chosen = with_named(scenario, "smoother", smoother)
+    result = run(chosen.model_copy(update={"seed": seed}))
     if result.error is not None:
         raise InputError(f"smoother {smoother!r}, seed {seed}: {result.error}")
     trace, period = result.trace, scenario.rates.period

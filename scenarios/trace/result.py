@@ -58,7 +58,7 @@ class RunResult:
             If the folder cannot be written.
         """
         from ..figures.run import draw_run
-        from ..files.diagnosis import resolve
+        from ..files.assembling import resolve
         from ..files.loading import to_yaml
 
         folder = writable_folder(folder)

@@ -81,13 +81,13 @@ class RerunLog:
     """
 
     def __init__(self, file: str | Path) -> None:
-        self.file = writable_file(file, "--rerun", ".rrd")
+        self.file = writable_file(file, ".rrd")
         try:
             self._rr: Any = importlib.import_module("rerun")
             self._layout: Any = importlib.import_module("rerun.blueprint")
         except ImportError as error:
             raise InputError(
-                "--rerun needs Rerun, which is not installed: pip install 'cowalk[rerun]'"
+                "this recording needs Rerun, which is not installed: pip install 'cowalk[rerun]'"
             ) from error
         self._stream: Any = None
         self._scene: Scene | None = None

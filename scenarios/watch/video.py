@@ -71,7 +71,7 @@ class Video:
     """
 
     def __init__(self, file: str | Path) -> None:
-        self.file = writable_file(file, "--video", ".mp4")
+        self.file = writable_file(file, ".mp4")
         self._encoder = _encoder()
         self._process: subprocess.Popen[bytes] | None = None
 
@@ -221,6 +221,6 @@ def _encoder() -> str:
         found: str = get_ffmpeg_exe()
     except (ImportError, RuntimeError) as error:
         raise InputError(
-            "--video needs a video encoder, which is not installed: pip install imageio-ffmpeg"
+            "a film needs a video encoder, which is not installed: pip install imageio-ffmpeg"
         ) from error
     return found

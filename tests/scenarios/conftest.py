@@ -18,6 +18,7 @@ MODELS = '''\
 import time
 import numpy as np
 from cowalk.agents import Truth
+from cowalk.sim import InputError
 
 
 class Quiet:
@@ -48,7 +49,7 @@ class Interrupted(Quiet):
 class Picky(Quiet):
     def __init__(self, push: float, side: str = "left"):
         if push < 0.0:
-            raise ValueError(f"push = {push}: must not be negative")
+            raise InputError(f"push = {push}: must not be negative", ("push",))
 
 
 class Unbuildable(Quiet):

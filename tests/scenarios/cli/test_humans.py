@@ -9,7 +9,7 @@ import pytest
 from matplotlib.image import imread
 
 from cowalk.agents import IMPERFECTIONS
-from cowalk.scenarios.files.human_seat import build_human
+from cowalk.scenarios.files.assembling import build_human
 from cowalk.scenarios.files.loading import load
 from cowalk.scenarios.files.schema import HumanComponent
 from cowalk.scenarios.people.population import load_population
@@ -111,7 +111,7 @@ def test_check_takes_an_agent(cowalk, tmp_path, monkeypatch):
 def test_an_agent_that_cannot_be_found_is_an_error_like_any_other(cowalk, folder):
     code, out, error = cowalk("check", "nowhere:Nobody", "my_models:Quiet")
     assert code == 2
-    assert error == "cowalk: human 'nowhere:Nobody' cannot be imported: No module named 'nowhere'\n"
+    assert error == "cowalk: 'nowhere:Nobody' cannot be imported: No module named 'nowhere'\n"
     assert out.startswith("my_models:Quiet: ")
 
 

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from cowalk.scenarios.files.building import build, check_parameters
 from cowalk.scenarios.files.schema import Component
 from cowalk.sim.basics.errors import InputError
-from cowalk.sim.basics.registry import Registry
+from cowalk.sim.basics.registry import Registry, part
 
 
 @dataclass
@@ -31,7 +31,7 @@ class Walker:
         rates: object = None,
     ) -> None:
         if speed < 0.0:
-            raise ValueError(f"speed = {speed}: must not be negative")
+            raise InputError(f"speed = {speed}: must not be negative", ("speed",))
         if steps < 0:
             raise TypeError("a bug in here")
         self.given = (speed, steps, side, shape, copy, weights, names, rates)
@@ -48,10 +48,12 @@ class Derived(Base):
     gain: float = 2.0
 
 
+@part("walker")
 def unannotated(size, **others):
     return (size, others)
 
 
+@part("walker")
 def for_checkers_alone(size: "NowhereToBeFound", rate: float = 1.0):  # noqa: F821
     return (size, rate)
 
@@ -76,7 +78,7 @@ def component(name="walker", **parameters):
 
 def refusal(name="walker", shared=None, **parameters):
     with pytest.raises(InputError) as error:
-        build(WALKERS, component(name, **parameters), "robot", **(shared or {}))
+        build(WALKERS, component(name, **parameters), ("robot",), **(shared or {}))
     assert "\n" not in str(error.value)
     return str(error.value)
 
@@ -84,14 +86,14 @@ def refusal(name="walker", shared=None, **parameters):
 def test_parameters_arrive_as_the_constructor_annotates_them():
     shape = {"width": 2, "corners": [1, 2]}
     walker = build(
-        WALKERS, component(speed=1, shape=shape, copy=True, names=["a"], side="right"), "robot"
+        WALKERS, component(speed=1, shape=shape, copy=True, names=["a"], side="right"), ("robot",)
     )
     assert walker.given == (1.0, 3, "right", Shape(2.0, (1.0, 2.0)), True, (1.0,), ["a"], None)
     assert isinstance(walker.given[0], float)
 
 
 def test_shared_arguments_go_to_those_who_take_them():
-    walker = build(WALKERS, component(speed=1.0), "robot", rates="the rates", smoother="unused")
+    walker = build(WALKERS, component(speed=1.0), ("robot",), rates="the rates", smoother="unused")
     assert walker.given[-1] == "the rates"
 
 
@@ -141,12 +143,15 @@ def test_a_module_that_fails_when_imported_is_named(tmp_path, monkeypatch):
 
 def test_inherited_fields_of_dataclasses_are_checked():
     assert "robot.parameters.pair = 3: a list of 2 is expected" in refusal("derived", pair=3)
-    assert build(WALKERS, component("derived", pair=[3, 4]), "robot").pair == (3.0, 4.0)
+    assert build(WALKERS, component("derived", pair=[3, 4]), ("robot",)).pair == (3.0, 4.0)
 
 
 def test_constructors_without_usable_annotations_take_what_they_name():
-    assert build(WALKERS, component("unannotated", size="x", more=1), "robot") == ("x", {"more": 1})
-    assert build(WALKERS, component("for-checkers", size="x"), "robot") == ("x", 1.0)
+    assert build(WALKERS, component("unannotated", size="x", more=1), ("robot",)) == (
+        "x",
+        {"more": 1},
+    )
+    assert build(WALKERS, component("for-checkers", size="x"), ("robot",)) == ("x", 1.0)
     assert "robot.parameters.sise: unknown key; did you mean 'size'?" in refusal(
         "for-checkers", size=1, sise=2
     )
@@ -154,7 +159,7 @@ def test_constructors_without_usable_annotations_take_what_they_name():
 
 def test_checking_reports_every_problem_and_builds_nothing():
     problems = check_parameters(
-        WALKERS, component(speed="fast", stepps=1, rates=1), "robot", shared=("rates",)
+        WALKERS, component(speed="fast", stepps=1, rates=1), ("robot",), {"rates": "rates"}
     )
     assert [problem.path[-1] for problem in problems] == ["rates", "speed", "stepps"]
-    assert check_parameters(WALKERS, component(speed=-1.0), "robot") == []
+    assert check_parameters(WALKERS, component(speed=-1.0), ("robot",), {}) == []

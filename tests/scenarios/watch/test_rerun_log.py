@@ -97,10 +97,10 @@ def test_a_run_that_dies_midway_leaves_a_recording_of_it(rrd, folder, scenario_f
 
 def test_without_rerun_one_line_says_what_to_install(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "rerun", None)
-    with pytest.raises(InputError, match=r"--rerun needs .*: pip install 'cowalk\[rerun\]'"):
+    with pytest.raises(InputError, match=r"needs Rerun.*: pip install 'cowalk\[rerun\]'"):
         RerunLog(tmp_path / "a.rrd")
 
 
 def test_another_ending_is_refused(tmp_path):
-    with pytest.raises(InputError, match=r"--rerun .*run.txt: the name must end in .rrd"):
+    with pytest.raises(InputError, match=r"run.txt: the name must end in .rrd"):
         RerunLog(tmp_path / "run.txt")

@@ -217,13 +217,13 @@ def test_an_encoder_that_dies_ends_the_run_with_its_data(tmp_path):
 
 def test_bad_files_are_refused_before_the_run(tmp_path):
     (tmp_path / "taken").write_text("a regular file")
-    with pytest.raises(InputError, match=r"--video .*run.avi: the name must end in .mp4"):
+    with pytest.raises(InputError, match=r"run.avi: the name must end in .mp4"):
         Video(tmp_path / "run.avi")
-    with pytest.raises(InputError, match=r"--video .*below.mp4: cannot write there"):
+    with pytest.raises(InputError, match=r"below.mp4: cannot write there"):
         Video(tmp_path / "taken" / "below.mp4")
 
 
 def test_without_an_encoder_one_line_says_what_to_install(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
-    with pytest.raises(InputError, match=r"--video needs .*: pip install imageio-ffmpeg"):
+    with pytest.raises(InputError, match=r"needs a video encoder.*: pip install imageio-ffmpeg"):
         Video(tmp_path / "a.mp4")

@@ -1,0 +1,160 @@
+"""The options that change a scenario: one for every part of the table, ``--set`` and ``--seed``."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ..files.parts import Part, parts
+from .output import complain
+
+if TYPE_CHECKING:
+    from ..files.loading import Reading
+    from ..files.schema import Scenario
+
+
+@dataclass(frozen=True)
+class Changes:
+    """What the command line changes about a scenario.
+
+    Attributes
+    ----------
+    names : sequence of (str, str, str)
+        Option, key of the scenario and value, for every option that was given.
+    assignments : sequence of str
+        Values of ``--set``.
+    """
+
+    names: Sequence[tuple[str, str, str]]
+    assignments: Sequence[str]
+
+    def __iter__(self) -> Iterator[tuple[str, str]]:
+        """Yield how each change was written, and as an assignment."""
+        for option, key, value in self.names:
+            yield f"{option} {value}", f"{key}={value}"
+        for assignment in self.assignments:
+            yield f"--set {assignment}", assignment
+
+
+def flagged() -> tuple[Part, ...]:
+    """Return the kinds of parts that an option swaps."""
+    return tuple(part for part in parts() if part.flag)
+
+
+def changing(command: Callable[..., int], **usual: str) -> Callable[..., int]:
+    """Return a command with these options in the place of its parameter ``changes``.
+
+    Parameters
+    ----------
+    command : callable
+        Takes ``changes``, a `Changes`.
+    **usual
+        Names that options have unless they are given, by the keys of their parts.
+    """
+    swaps = flagged()
+
+    def called(assign: list[str] | None, seed: int | None, **given: Any) -> int:
+        names = [(f"--{part.flag}", ".".join(part.section), given.pop(part.key)) for part in swaps]
+        names.append(("--seed", "seed", "" if seed is None else str(seed)))
+        changes = Changes([each for each in names if each[2]], assign or [])
+        return command(changes=changes, **given)
+
+    signature = inspect.signature(command, eval_str=True)
+    parameters: list[inspect.Parameter] = []
+    for parameter in signature.parameters.values():
+        if parameter.name == "changes":
+            parameters += [_option(part, usual.get(part.key, "")) for part in swaps]
+            parameters += [_keyword("assign", _SET, None), _keyword("seed", _SEED, None)]
+        else:
+            parameters.append(parameter.replace(kind=inspect.Parameter.KEYWORD_ONLY))
+    called.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]
+    called.__annotations__ = {}
+    called.__name__, called.__doc__ = command.__name__, command.__doc__
+    return called
+
+
+_SET = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="KEY=VALUE", help="Set one value; may be repeated."),
+]
+_SEED = Annotated[int | None, typer.Option("--seed", help="Seed instead of the scenario's.")]
+
+
+def _option(part: Part, usual: str) -> inspect.Parameter:
+    what = "a name" if part.preset else "name or module:Class"
+    text = f"{part.kind.capitalize()} instead of the scenario's: {what}."
+    return _keyword(part.key, Annotated[str, typer.Option(f"--{part.flag}", help=text)], usual)
+
+
+def _keyword(name: str, annotation: Any, default: Any) -> inspect.Parameter:
+    return inspect.Parameter(
+        name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation
+    )
+
+
+def load_changed(source: str, changes: Changes) -> Scenario:
+    """Return a scenario with its changes (see `read_changed`)."""
+    return read_changed(source, changes).scenario
+
+
+def read_changed(source: str, changes: Changes) -> Reading:
+    """Return a scenario with its changes; what a swapped part loses goes to standard error.
+
+    Raises
+    ------
+    InputError
+        If the scenario, or an option, is not right: the option is named.
+    """
+    from ..files.loading import read
+
+    with blamed(changes):
+        _refuse_contradictions(changes)
+        reading = read(source, [assignment for _, assignment in changes])
+    for dropped in reading.dropped:
+        complain(str(dropped))
+    return reading
+
+
+@contextmanager
+def blamed(changes: Changes) -> Iterator[None]:
+    """Tell what is wrong with an override in the words of its option."""
+    from cowalk.sim.basics.errors import InputError
+
+    from ..files.overrides import OverrideError
+
+    try:
+        yield
+    except OverrideError as error:
+        written, _ = list(changes)[error.number]
+        raise InputError(f"{written}: {error.reason}") from error
+
+
+@contextmanager
+def option(name: str) -> Iterator[None]:
+    """Let errors name the option whose value is wrong."""
+    from cowalk.sim.basics.errors import InputError
+
+    try:
+        yield
+    except InputError as error:
+        raise InputError(f"{name} {error}") from error
+
+
+def _refuse_contradictions(changes: Changes) -> None:
+    """Refuse an option and a ``--set`` of the same key that say two things."""
+    from cowalk.sim.basics.errors import InputError
+
+    from ..files.overrides import parsed
+
+    said: dict[tuple[str | int, ...], tuple[str, str]] = {
+        tuple(key.split(".")): (f"{name} {value}", value) for name, key, value in changes.names
+    }
+    for number, (written, assignment) in enumerate(changes):
+        steps, _, value = parsed(assignment, number)
+        if steps in said and not isinstance(value, dict) and str(value) != said[steps][1]:
+            raise InputError(f"{said[steps][0]} and {written} contradict each other: give one")
