@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy import signal
 
 from cowalk.sim.basics.motion import Array
 
@@ -54,10 +53,10 @@ def lag(estimate: ArrayLike, truth: ArrayLike, period: float, longest: float = 1
     if a.size < 2 or np.ptp(a) < 1e-12 or np.ptp(b) < 1e-12:
         return float("nan")
     a, b = a - a.mean(), b - b.mean()
-    delays = signal.correlation_lags(a.size, b.size)
-    near = np.abs(delays) * period <= longest
-    correlation = signal.correlate(a, b, method="fft")[near]
-    return float(delays[near][np.argmax(correlation)] * period)
+    delays = np.arange(1 - a.size, a.size)
+    delays = delays[np.abs(delays) * period <= longest]
+    correlation = np.correlate(np.pad(a, delays[-1]), b, "valid")
+    return float(delays[np.argmax(correlation)] * period)
 
 
 def _errors(estimate: ArrayLike, truth: ArrayLike) -> Array:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 from weakref import WeakSet
 
 import numpy as np
@@ -23,12 +23,14 @@ from ..robot.coupling import CouplingParameters
 from ..robot.drive import DriveParameters
 from ..robot.robot import RobotParameters
 from ..sensor.wrench import SensorMount
-from ..view.viewer import Viewer
 from ..world.outline import Bodies
 from ..world.world import World
 from .chains import State
 from .distances import EngineClearance
 from .pair import Pair, PairParameters
+
+if TYPE_CHECKING:
+    from ..view.viewer import Viewer
 
 MAX_HELD = 3
 """Physics steps for which the human's joint forces are held at most: muscles need no 240 Hz."""
@@ -279,6 +281,9 @@ class BulletPlant:
         if self._viewer is None or self._viewer.world != self._world:
             if self._viewer is not None:
                 self._viewer.close()
+            # Slow to import, with what it draws by; most runs are not looked at.
+            from ..view.viewer import Viewer
+
             self._viewer = Viewer(self._world, self._pair.look, self._gui)
         pair = self._pair
         x, y, yaw, vx, vy, _ = pair.base_state

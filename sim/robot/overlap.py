@@ -6,8 +6,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.spatial import ConvexHull
 
 from ..basics.errors import InputError
 from ..basics.frames import Vector
@@ -15,7 +13,7 @@ from ..basics.motion import Array
 from ..body.anthropometry import ANKLE_HEIGHT, HALF_HIPS, TRUNK_DEPTH, BodyParameters
 from ..body.human_body import trunk_outline
 from ..urdf.solids import Solid
-from ..world.outline import Outline, across, hull
+from ..world.outline import Outline, across, corners, hull
 
 TOLERANCE = 0.02
 """How far a robot may reach into a human, m (inferred): shapes are coarse, and flesh gives way."""
@@ -152,18 +150,13 @@ def _block(solid: Solid, part: Slice) -> Block | None:
     if solid.radius > 0.0:
         rims = hull((x, y, solid.radius) for x, y in rims.tolist()).polygon
     elif len(rims) > len(part.outline.polygon):
-        rims = rims[_rim(rims)]
+        rims = rims[corners(rims)]
+    # Slow to import, and needed only where a human stands near the robot's middle.
+    from scipy.spatial import ConvexHull
+
     apart = (part.outline.polygon[:, None] - rims[None]).reshape(-1, 2)
     section = _section(solid, (part.low + min(part.high, solid.top)) / 2.0)
     return Block(solid, part, ConvexHull(apart).equations, cut, section)
-
-
-def _rim(points: Array) -> NDArray[np.intp]:
-    """Return the numbers of the points on the hull; of all that lie on a line."""
-    try:
-        return np.asarray(ConvexHull(points).vertices)
-    except ValueError:
-        return np.arange(len(points))
 
 
 def _between(points: Array, low: float, high: float) -> Array:

@@ -1,11 +1,13 @@
-"""What a sensor does to a signal and adds to it: a low-pass; bias, drift and noise."""
+"""What a sensor does to a signal and adds to it: a low-pass; bias, drift and noise.
+
+`scipy.signal` is slow to import, and imported where there is a low-pass.
+"""
 
 from __future__ import annotations
 
 import math
 
 import numpy as np
-from scipy import signal
 
 from ..basics.motion import Array
 
@@ -60,6 +62,8 @@ class LowPass:
     """
 
     def __init__(self, frequency: float, sample_rate: float, channels: int) -> None:
+        from scipy import signal
+
         self.b, self.a = signal.butter(ORDER, frequency, fs=sample_rate)
         self._channels = channels
         self._blocks: dict[int, tuple[Array, Array]] = {}
@@ -74,6 +78,8 @@ class LowPass:
         """Come to rest at what has been coming in for long, shape (channels,), or else at 0."""
         self._state = np.zeros((ORDER, self._channels))
         if level is not None:
+            from scipy import signal
+
             self._state += signal.lfilter_zi(self.b, self.a)[:, None] * level
 
     def __call__(self, samples: Array) -> Array:
@@ -94,6 +100,8 @@ class LowPass:
 
     def _block(self, n: int) -> Array:
         """Return the matrix from state and n inputs to n outputs and the next state."""
+        from scipy import signal
+
         units = np.eye(ORDER + n)
         out, state = signal.lfilter(self.b, self.a, units[ORDER:], axis=0, zi=units[:ORDER])
         return np.concatenate((out, state))
@@ -141,6 +149,8 @@ class Offset:
     def _make(self, n: int) -> Array:
         noise = self._rng.standard_normal((n, len(self._bias))) * self._deviation
         if self._low_pass is not None:
+            from scipy import signal
+
             noise, self._state = signal.lfilter(
                 self._low_pass.b, self._low_pass.a, noise, axis=0, zi=self._state
             )

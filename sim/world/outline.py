@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.spatial import ConvexHull, QhullError
+from numpy.typing import NDArray
 
 from ..basics.motion import Array
 
@@ -17,6 +17,8 @@ Disc = tuple[float, float, float]
 
 SIDES = 64
 """Corners by which a circle is drawn: they are off by 0.06 % of its radius at most."""
+FLAT = 1e-14
+"""What three points in a row turn by that is rounding: an area, as a share of all they span."""
 _ANGLES = (np.arange(SIDES) + 0.5) * (math.tau / SIDES)
 # Half outside, half inside: the error of a polygon of so many sides, on either side of zero.
 _GROWN = 2.0 / (1.0 + math.cos(math.pi / SIDES))
@@ -42,7 +44,7 @@ class Outline:
     def polygon(self) -> Array:
         """Its corners, circles by `SIDES` of them, counter-clockwise, shape (n, 2), m."""
         points, _ = _sampled(self.discs)
-        return np.asarray(points[ConvexHull(points).vertices])
+        return np.asarray(points[corners(points)])
 
     @property
     def swing(self) -> float:
@@ -141,12 +143,47 @@ def hull(discs: Iterable[Disc]) -> Outline:
     """
     given = tuple(dict.fromkeys(discs))
     points, owners = _sampled(given)
-    try:
-        corners = ConvexHull(points).vertices
-    except (QhullError, ValueError) as error:
-        raise ValueError("no outline: nothing, or nothing but a line") from error
-    kept = dict.fromkeys(int(owner) for owner in owners[corners])
+    found = corners(points)
+    if len(found) < 3:
+        raise ValueError("no outline: nothing, or nothing but a line")
+    kept = dict.fromkeys(int(owner) for owner in owners[found])
     return Outline(tuple(given[owner] for owner in kept))
+
+
+def corners(points: Array) -> NDArray[np.intp]:
+    """Return the numbers of the corners of the convex hull of points, counter-clockwise.
+
+    By Andrew's monotone chain (Inf. Process. Lett. 9, 1979), from the corner with the lowest
+    number on. SciPy's hull would do, but takes longer to import than a run to start.
+
+    Parameters
+    ----------
+    points : ndarray, shape (n, 2)
+        m.
+
+    Returns
+    -------
+    ndarray, shape (corners,)
+        Less than three if the points lie on a line: its ends.
+    """
+    x, y = points[:, 0].tolist(), points[:, 1].tolist()
+    flat = FLAT * float(np.ptp(points, axis=0).max() ** 2) if len(points) else 0.0
+
+    def side(order: list[int]) -> list[int]:
+        kept: list[int] = []
+        for c in order:
+            while len(kept) > 1:
+                a, b = kept[-2:]
+                if (x[b] - x[a]) * (y[c] - y[a]) - (y[b] - y[a]) * (x[c] - x[a]) > flat:
+                    break
+                kept.pop()
+            kept.append(c)
+        return kept[:-1]
+
+    order = np.lexsort((y, x)).tolist()
+    found = [*side(order), *side(order[::-1])] or order[:1]
+    first = found.index(min(found)) if found else 0
+    return np.array(found[first:] + found[:first], dtype=np.intp)
 
 
 def _sampled(discs: tuple[Disc, ...]) -> tuple[Array, Array]:
