@@ -6,6 +6,7 @@ import re
 from collections.abc import Collection
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 from itertools import pairwise
 from typing import Any
 
@@ -110,16 +111,7 @@ def parse(text: str, columns: Collection[str]) -> Formula:
     FormulaError
         If it is no formula, or uses a column that is not there.
     """
-    text = re.sub("!=(?!=)", "!==", text)  # as everybody writes it, and as rtamt wants it
-    tokens = _Lexer(InputStream(text)).getAllTokens()
-    if any(token.type == LtlLexer.EQUAL for token in tokens):
-        raise FormulaError("'=' says nothing here; write == to compare")
-    names = sorted({token.text for token in tokens if token.type == LtlLexer.Identifier})
-    called = {
-        token.text
-        for token, after in pairwise(tokens)
-        if token.type == LtlLexer.Identifier and after.type in (LtlLexer.LPAREN, LtlLexer.LBRACK)
-    }
+    names, called = _words(text)
     for name in names:
         if name not in columns and name in called:
             raise FormulaError(f"unknown operator {name!r}; {did_you_mean(name, OPERATORS)}")
@@ -128,11 +120,36 @@ def parse(text: str, columns: Collection[str]) -> Formula:
             raise FormulaError(
                 f"unknown column {name!r}; {spaces}{did_you_mean(name, list(columns))}"
             )
+    return Formula(_tree(text, names), names)
+
+
+def _as_rtamt_wants_it(text: str) -> str:
+    return re.sub("!=(?!=)", "!==", text)  # everybody writes it with two characters
+
+
+@lru_cache
+def _words(text: str) -> tuple[tuple[str, ...], frozenset[str]]:
+    """Return the names in a formula, sorted, and which of them a bracket follows."""
+    tokens = _Lexer(InputStream(_as_rtamt_wants_it(text))).getAllTokens()
+    if any(token.type == LtlLexer.EQUAL for token in tokens):
+        raise FormulaError("'=' says nothing here; write == to compare")
+    names = {token.text for token in tokens if token.type == LtlLexer.Identifier}
+    called = {
+        token.text
+        for token, after in pairwise(tokens)
+        if token.type == LtlLexer.Identifier and after.type in (LtlLexer.LPAREN, LtlLexer.LBRACK)
+    }
+    return tuple(sorted(names)), frozenset(called)
+
+
+@lru_cache  # a formula is checked, then judged, in as many runs as there are
+def _tree(text: str, names: tuple[str, ...]) -> Node:
+    """Return the root of the syntax tree of a formula over columns; nobody changes it."""
     tree = StlAst()
     tree.antrlLexerType, tree.parserErrorListenerType = _Lexer, _Listener
     for name in names:
         tree.declare_var(name, "float")
-    tree.spec = text
+    tree.spec = _as_rtamt_wants_it(text)
     try:
         tree.parse()
     except FormulaError:
@@ -146,7 +163,7 @@ def parse(text: str, columns: Collection[str]) -> Formula:
     root = tree.specs[0]
     _require_truth(root)
     _check_operands(root)
-    return Formula(root, tuple(names))
+    return root
 
 
 def kind(node: Node) -> str:
