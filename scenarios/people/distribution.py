@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict
-from scipy import stats
 
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.registry import nearest
@@ -42,6 +41,8 @@ class Distribution(BaseModel):
 
     def model_post_init(self, context: Any) -> None:
         """Find the distribution and its ends; see `InputError`s raised for what is checked."""
+        from scipy import stats  # slow to import, and needed only where somebody is drawn
+
         family = getattr(stats, self.distribution, None)
         if not isinstance(family, stats.rv_continuous | stats.rv_discrete):
             names = [

@@ -16,7 +16,6 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
-from scipy.linalg import solve_continuous_are
 
 from ...basics.elementwise import Elementwise, Value
 
@@ -68,6 +67,9 @@ def regulator(
     error_weights, effort_weight, steering
         See `best_answer`.
     """
+    # Slow to import, and needed for one model alone.
+    from scipy.linalg import solve_continuous_are
+
     push = np.array([[0.0], [steering]])
     # The partner's law is part of what they steer.
     plant = np.array([[0.0, 1.0], [-steering * partner[0], -steering * partner[1]]])

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
-from scipy.interpolate import make_interp_spline
 
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.motion import Array
@@ -122,6 +121,9 @@ def resample(
         return np.asarray(force[at])
     if how == "linear":
         return np.stack([np.interp(starts[:-1], time, part) for part in force.T], axis=-1)
+    # Slow to import, and needed only here.
+    from scipy.interpolate import make_interp_spline
+
     area = make_interp_spline(time, force, k=1).antiderivative()
     ends = np.minimum(starts, time[-1])
     return np.asarray(np.diff(area(ends), axis=0) / np.diff(ends)[:, None])
