@@ -1,3 +1,4 @@
+from .export.run_folder import write_run as write_run
 from .files.loading import library as library
 from .files.loading import load as load
 from .files.schema import Scenario as Scenario

@@ -70,7 +70,8 @@ def test_the_readmes_own_human_runs(tmp_path, monkeypatch):
     assert result.trace["true_v"].max() == 1.1
 
 
-def test_the_readmes_python_runs():
+def test_the_readmes_python_runs(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
     (code,) = [block for block in python_of("README.md") if "make_env" in block]
     exec(compile(code, "README.md", "exec"), {})
 

@@ -95,6 +95,9 @@ def run(
             "--show", help="Print the final scenario, its values marked by origin; run nothing."
         ),
     ] = False,
+    no_figure: Annotated[
+        bool, typer.Option("--no-figure", help="Draw no picture: a run is then over sooner.")
+    ] = False,
     as_json: Json = False,
 ) -> int:
     """Run a scenario, keep what it gave, judge it."""
@@ -102,8 +105,9 @@ def run(
     if show:
         return _show(reading, as_json)
     from ..export.folder import writable_folder
+    from ..export.run_folder import draw_figure, write_run
     from ..running.runner import run as run_scenario
-    from ..watch.watcher import watchers
+    from ..watch.writers import watchers
 
     loaded = reading.scenario
     with option("--video"):
@@ -116,16 +120,22 @@ def run(
     label = f"filming {loaded.name}" if video is not None else loaded.name
     with progress_bar(label) as progress, redirect_stdout(sys.stderr):
         result = run_scenario(loaded, progress, watching, gui)
-    result.write(folder)
+    write_run(result, folder, figure=False)
     written = {"video": video, "rerun": rerun}
     files = {what: str(file) for what, file in written.items() if file is not None}
     if as_json:
         emit_json(result.summary | {"folder": str(folder), "passed": result.passed} | files)
     elif result.error is None:
-        _report(result, folder, files)
+        _report(result, files)
     if result.error is not None:
         kept = f"the trace so far, {len(result.trace)} rows, is in {folder / 'trace.parquet'}"
         complain(f"{result.error}; {kept}")
+    if not no_figure:
+        sys.stdout.flush()  # results first: drawing takes longer than most runs
+        picture = draw_figure(result, folder)
+        if not as_json and result.error is None:
+            _say_file("picture", str(picture))
+    if result.error is not None:
         return BAD_INPUT
     return PASSED if result.passed else FAILED
 
@@ -143,7 +153,11 @@ def _show(reading: Reading, as_json: bool) -> int:
     return PASSED
 
 
-def _report(result: RunResult, folder: Path, files: dict[str, str]) -> None:
+def _say_file(what: str, file: str) -> None:
+    print(f"{what + ':':<9} {file}")
+
+
+def _report(result: RunResult, files: dict[str, str]) -> None:
     from ..expect.verdict import explain
     from ..trace.result import how_it_ended
     from ..trace.sensor_faults import sensor_faults
@@ -164,17 +178,14 @@ def _report(result: RunResult, folder: Path, files: dict[str, str]) -> None:
                 for verdict in result.verdicts
             ],
         )
-    picture = folder / "figure.png"
-    if picture.exists():
-        files = {"picture": str(picture)} | files
-    for what, file in files.items():
-        print(f"{what + ':':<9} {file}")
     print(f"ended by: {how_it_ended(summary)}")
     if faults := sensor_faults(summary):
         print(f"sensor:   {faults}")
     factor, wall = summary["real_time_factor"], summary["wall_time_s"]
     if factor is not None:
         print(f"speed:    {two_digits(factor)} times real time ({wall:.2f} s)")
+    for what, file in files.items():
+        _say_file(what, file)
 
 
 def check(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -34,15 +34,14 @@ VARIES = 0.01
 """A velocity that stays within this, m/s, was not negotiated and gets no panel."""
 
 
-def draw_run(result: RunResult, file: Path) -> None:
+def draw_run(result: RunResult, file: Path | BinaryIO) -> None:
     """Write the picture of a run as PNG; the same run gives the same bytes.
 
     Parameters
     ----------
     result : RunResult
         Of any length; columns of which the automation has no opinion may be NaN.
-    file : Path
-        Name of the PNG.
+    file : Path or binary stream
     """
     save(run_figure(result), file)
 

@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 import matplotlib.style
 from matplotlib.axes import Axes
@@ -62,7 +62,7 @@ def new_figure(width: float, height: float, dpi: int) -> Figure:
     return figure
 
 
-def save(figure: Figure, file: Path) -> None:
+def save(figure: Figure, file: Path | BinaryIO) -> None:
     """Write a PNG whose bytes depend on the picture alone."""
     with house_style(), warnings.catch_warnings():
         # A name in a script that the font lacks shows as boxes; the picture is still worth it.

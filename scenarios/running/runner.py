@@ -21,6 +21,7 @@ from cowalk.sim.env.env import CowalkEnv
 
 from ..expect.verdict import judge
 from ..export.json_ready import json_ready
+from ..export.run_folder import picture
 from ..files.assembling import named_parts
 from ..files.schema import Scenario
 from ..trace.metrics import metrics
@@ -240,4 +241,4 @@ def _result(
         "expectations": [asdict(verdict) for verdict in verdicts],
         "versions": {"python": platform.python_version(), **_versions()},
     }
-    return RunResult(scenario, trace, json_ready(summary), verdicts, error)
+    return RunResult(scenario, trace, json_ready(summary), verdicts, error, picture=picture)

@@ -1,16 +1,14 @@
-"""The trace of a run, and the run folder that keeps it."""
+"""What a run gives: its trace, and what is said of it."""
 
 from __future__ import annotations
 
-import json
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cowalk.sim.plant.discs import PLAIN_BODIES
 from cowalk.sim.world.outline import Outline
 
-from ..export.folder import writable_folder
 from .trace import Trace
 
 if TYPE_CHECKING:
@@ -35,6 +33,8 @@ class RunResult:
         Why the run ended before its time, if it did.
     outlines : dict of str to Outline
         Of the bodies, for pictures; a load's in base axes, as it was held at the end.
+    picture : callable, optional
+        Returns the result's picture as PNG; notebooks show it.
     """
 
     scenario: Scenario
@@ -43,30 +43,16 @@ class RunResult:
     verdicts: list[Verdict] = field(default_factory=list)
     error: str | None = None
     outlines: dict[str, Outline] = field(default_factory=lambda: PLAIN_BODIES.outlines)
+    picture: Callable[[RunResult], bytes] | None = field(default=None, repr=False, compare=False)
 
     @property
     def passed(self) -> bool:
         """Whether the run went through and every expectation held."""
         return self.error is None and all(verdict.passed for verdict in self.verdicts)
 
-    def write(self, folder: str | Path) -> Path:
-        """Write trace.parquet, summary.json, scenario.yaml and figure.png into a folder.
-
-        Raises
-        ------
-        InputError
-            If the folder cannot be written.
-        """
-        from ..figures.run import draw_run
-        from ..files.assembling import resolve
-        from ..files.loading import to_yaml
-
-        folder = writable_folder(folder)
-        self.trace.write(folder / "trace.parquet")
-        (folder / "summary.json").write_text(json.dumps(self.summary, indent=2) + "\n")
-        (folder / "scenario.yaml").write_text(to_yaml(resolve(self.scenario)))
-        draw_run(self, folder / "figure.png")
-        return folder
+    def _repr_png_(self) -> bytes | None:
+        """Return the picture that notebooks show for a result."""
+        return None if self.picture is None else self.picture(self)
 
 
 def how_it_ended(summary: dict[str, Any]) -> str:

@@ -99,6 +99,36 @@ def test_a_run_writes_its_folder_and_ends_with_table_picture_and_speed(
         assert words in out
 
 
+@pytest.mark.parametrize("options", [(), ("--json",)])
+def test_results_are_there_before_the_picture(options, cowalk, scenario_file, monkeypatch, capfd):
+    shown = []
+
+    def draw(result, file):
+        shown.append(capfd.readouterr().out)
+
+    monkeypatch.setattr("cowalk.scenarios.figures.run.draw_run", draw)
+    code, after, _ = cowalk("run", scenario_file(), *options)
+    assert code == 0
+    assert "smallest clearance" in shown[0]
+    assert "picture" not in shown[0]
+    assert after == ("" if options else "picture:  runs/walk/figure.png\n")
+
+
+def test_without_a_figure_there_is_none_nor_that_of_an_earlier_run(
+    cowalk, scenario_file, folder, monkeypatch
+):
+    monkeypatch.setattr(
+        "cowalk.scenarios.figures.run.draw_run", lambda _, file: file.write_bytes(b"drawn")
+    )
+    figure = folder / "runs/walk/figure.png"
+    cowalk("run", scenario_file())
+    assert figure.exists()
+    code, out, err = cowalk("run", scenario_file(), "--no-figure")
+    assert (code, err) == (0, "")
+    assert "picture" not in out
+    assert not figure.exists()
+
+
 def test_the_kept_scenario_runs_again_to_the_same_trace(cowalk, scenario_file, folder):
     cowalk("run", scenario_file(), "--human", "escalating", "--seed", 4, "--out", "first")
     code, _, _ = cowalk("run", "first/scenario.yaml", "--out", "second")

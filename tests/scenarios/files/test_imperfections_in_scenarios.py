@@ -6,6 +6,7 @@ import yaml
 
 from cowalk.agents.imperfections.reaction_delay import ReactionDelay
 from cowalk.agents.imperfections.tremor import Tremor
+from cowalk.scenarios.export.run_folder import write_run
 from cowalk.scenarios.files.loading import faults, load, to_yaml
 from cowalk.scenarios.running.build import build_agents
 from cowalk.scenarios.running.runner import run
@@ -79,7 +80,7 @@ def test_a_faster_control_makes_room_for_the_whole_band(walk):
 
 def test_a_kept_run_has_their_defaults_written_out(walk, tmp_path):
     result = run(load(walk()))
-    result.write(tmp_path / "kept")
+    write_run(result, tmp_path / "kept", figure=False)
     kept = yaml.safe_load((tmp_path / "kept" / "scenario.yaml").read_text())
     assert kept["human"]["imperfections"] == [
         {"name": "reaction-delay", "parameters": {"delay": 0.2}},

@@ -10,7 +10,7 @@ import pytest
 
 from cowalk.agents import AUTOMATIONS, HUMANS
 from cowalk.estimation.registry import SMOOTHERS
-from cowalk.scenarios import load, make_env, run
+from cowalk.scenarios import load, make_env, run, write_run
 from cowalk.scenarios.files.loading import library
 from cowalk.scenarios.trace.trace import UNITS, Trace
 from cowalk.sim.basics.errors import InputError
@@ -104,7 +104,7 @@ def test_a_belief_object_that_is_used_again_is_read_again(tmp_path, monkeypatch)
     overrides = ["automation=counting:Counting", "plant=unicycle", "duration=2", "expect={}"]
     result = run(load("puddle", overrides))
     np.testing.assert_array_equal(result.trace["negotiation"], np.arange(1, 41))
-    assert result.write(tmp_path / "run").exists()  # its other beliefs are NaN
+    assert write_run(result, tmp_path / "run", figure=False).exists()  # its other beliefs are NaN
 
 
 def test_the_trace_holds_the_force_that_acted(tmp_path, monkeypatch):
@@ -140,7 +140,7 @@ def test_the_trace_holds_what_the_sensor_read_in_its_own_axes():
 
 
 def test_a_trace_from_before_torque_was_measured_is_read_without_it(puddle, tmp_path):
-    file = puddle.write(tmp_path / "run") / "trace.parquet"
+    file = write_run(puddle, tmp_path / "run", figure=False) / "trace.parquet"
     table = pq.read_table(file)
     older = [name for name in table.column_names if not name.startswith("sensor_")]
     pq.write_table(table.select(older), file)
@@ -153,7 +153,7 @@ def test_a_trace_from_before_torque_was_measured_is_read_without_it(puddle, tmp_
 
 
 def test_a_run_folder_holds_everything_and_runs_again(puddle, tmp_path):
-    folder = puddle.write(tmp_path / "run")
+    folder = write_run(puddle, tmp_path / "run")
     schema = pq.read_schema(folder / "trace.parquet")
     assert {field.name: field.metadata[b"unit"].decode() for field in schema} == UNITS
     np.testing.assert_array_equal(Trace.read(folder / "trace.parquet").values, puddle.trace.values)
@@ -237,7 +237,7 @@ def test_a_run_that_dies_midway_says_why_and_keeps_its_trace(name, said, tmp_pat
     assert result.summary["end"] == "aborted"
     assert len(result.trace) == 30
     assert not result.passed
-    folder = result.write(tmp_path / "run")
+    folder = write_run(result, tmp_path / "run", figure=False)
     assert len(Trace.read(folder / "trace.parquet")) == 30
 
 

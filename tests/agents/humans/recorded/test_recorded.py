@@ -316,9 +316,7 @@ def test_recordings_drive_a_run_from_the_command_line(
 ):
     shared = SHARED / f"recording_{number}.csv"
     file = shared if shared.is_file() else stand_in_recording
-    # Pictures take seconds, and have tests of their own.
-    monkeypatch.setattr("cowalk.scenarios.figures.run.draw_run", lambda *_: None)
-    arguments = ["run", "puddle", "--plant", "unicycle", "--human", "recorded"]
+    arguments = ["run", "puddle", "--plant", "unicycle", "--human", "recorded", "--no-figure"]
     settings = [f"human.parameters.file={file}", "duration=6", "expect={}"]
     for setting in settings:
         arguments += ["--set", setting]

@@ -1,0 +1,58 @@
+"""A command imports what it uses, and nothing that is slow to import besides."""
+
+import subprocess
+import sys
+
+import pytest
+
+SLOW = {
+    *("scipy.signal", "scipy.spatial", "scipy.stats", "scipy.optimize", "scipy.interpolate"),
+    *("rtamt", "antlr4", "matplotlib", "trimesh", "filterpy", "numba", "joblib", "PIL", "rerun"),
+    *("pandas", "IPython", "pytest"),
+}
+PLAIN = ("run", "puddle", "--no-figure", "--set", "expect={}", "--set", "duration=3")
+LOW_PASS = ("--set", "sensor.low_pass=20")
+
+
+def slow_imports(folder, *arguments):
+    code = (
+        "import sys\nfrom cowalk.scenarios.cli.main import main\n"
+        "try: main()\nexcept SystemExit as end: assert end.code in (0, None), end.code\n"
+        f"print(*sorted({SLOW} & set(sys.modules)), file=sys.stderr)"
+    )
+    command = [sys.executable, "-c", code, *arguments]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=True)
+    return set(done.stderr.splitlines()[-1].split())
+
+
+def test_a_plain_run_imports_nothing_slow(tmp_path):
+    assert slow_imports(tmp_path, *PLAIN, "--set", "sensor.low_pass=0") == set()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "used", "unused"),
+    [
+        ((*PLAIN, *LOW_PASS), {"scipy.signal"}, {"rtamt", "matplotlib", "PIL"}),
+        (
+            ("run", "puddle", "--no-figure"),
+            {"rtamt", "antlr4"},
+            SLOW - {"rtamt", "antlr4"},
+        ),
+        (
+            [each for each in PLAIN if each != "--no-figure"],
+            {"matplotlib", "PIL"},
+            {"rtamt", "scipy.signal", "scipy.spatial"},
+        ),
+        ((*PLAIN, "--smoother", "kalman"), {"filterpy"}, {"rtamt", "matplotlib"}),
+    ],
+    ids=["low-pass", "expectations", "figure", "kalman"],
+)
+def test_a_run_imports_what_it_uses(arguments, used, unused, tmp_path):
+    found = slow_imports(tmp_path, *arguments)
+    assert used <= found
+    assert not unused & found
+
+
+@pytest.mark.parametrize("command", [("list",), ("check", "puddle"), ("humans", "list")])
+def test_commands_that_only_look_import_nothing_slow(command, tmp_path):
+    assert slow_imports(tmp_path, *command) <= {"rtamt", "antlr4"}
