@@ -5,6 +5,9 @@ from .files.schema import Scenario as Scenario
 from .people.population import load_population as load_population
 from .running.build import build_agents as build_agents
 from .running.build import make_env as make_env
+from .running.build import seeds_of as seeds_of
+from .running.build import situation_of as situation_of
 from .running.runner import run as run
+from .trace.recorder import Recorder as Recorder
 from .trace.result import RunResult as RunResult
 from .trace.trace import Trace as Trace

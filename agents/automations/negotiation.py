@@ -1,132 +1,76 @@
-"""The negotiation loop that strategies share: read the force, concede, settle, hold."""
+"""What a strategy is told at a negotiation, and what it answers."""
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections import deque
-from copy import deepcopy
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from cowalk.estimation.front_ends.mean import mean_force
-from cowalk.estimation.laws.stubbornness import interaction_value, stubbornness_norm
-from cowalk.estimation.observers.paper import PaperObserver
-from cowalk.estimation.observers.protocol import ForceReading, Observer
-from cowalk.estimation.smoothers.moving_average import MovingAverage
-from cowalk.estimation.smoothers.protocol import Smoother
+from cowalk.estimation.observers.protocol import Estimate
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
 from cowalk.sim.basics.situation import Situation
 
-from ..basics.protocols import Belief
-from .planner.problem import PROBLEMS
-from .planner.settings import NegotiationSettings
-from .planner.utility import negotiated
+from .planner.problem import Problem
 
 
-class NegotiatingAutomation(ABC):
-    """Renegotiates once a period and holds the agreed primitive in between.
+@dataclass(frozen=True, slots=True, eq=False)
+class Negotiation:
+    """What is known when a primitive is to be agreed on (leading batch axes come first).
 
-    A strategy says how much utility it gives up; the rest is the paper's loop. Every strategy
-    logs the same estimates, whether it uses them or not.
-
-    Parameters
+    Attributes
     ----------
-    negotiation : NegotiationSettings
-    smoother : Smoother
-        Smooths the interaction value; a copy of it smooths the logged stubbornness.
-    observer : Observer
-        Reads stubbornness and wish from the force.
+    problem : Problem
+        What there is to negotiate here: costs, bounds, the front between two wishes.
+    own : ndarray, shape (..., 2)
+        The automation's own wish p_A*, m/s and rad/s.
+    human : ndarray, shape (..., 2)
+        The human's estimated wish as far as it is negotiable: v is the usual pace where omega
+        alone is negotiated. m/s and rad/s.
+    estimate : Estimate
+        The observer's, of stubbornness and wish with their deviations.
+    stubbornness : ndarray, shape (..., n)
+        Its mean in the dimensions that are negotiated, in [0, 1].
+    observation : Observation
+        All that the automation's seat perceives: pose, twist, obstacles, raw force.
+    situation : Situation
+    time : float or ndarray, shape (...)
+        Since reset, s.
+    number : int
+        Negotiations before this one.
     """
 
-    def __init__(
-        self,
-        negotiation: NegotiationSettings | None = None,
-        smoother: Smoother | None = None,
-        observer: Observer | None = None,
-    ) -> None:
-        self.negotiation = negotiation or NegotiationSettings()
-        self._interaction_smoother = smoother or MovingAverage()
-        self._stubbornness_smoother = deepcopy(self._interaction_smoother)
-        self._observer: Observer = observer or PaperObserver()
+    problem: Problem
+    own: Array
+    human: Array
+    estimate: Estimate
+    stubbornness: Array
+    observation: Observation
+    situation: Situation
+    time: float | Array
+    number: int
 
-    @abstractmethod
-    def utility_loss(self, interaction_smoothed: Array) -> Array:
-        """Return the utility that is given up, in [0, 1], shape (...)."""
 
-    def reset(self, rng: np.random.Generator, situation: Situation) -> None:
-        """See `Automation.reset`."""
-        settings = self.negotiation
-        self._steps = settings.steps(situation.period)
-        self._situation = situation
-        self._reading = ForceReading(
-            force_max=np.asarray(settings.force_max, dtype=float),
-            force_threshold=np.asarray(settings.force_threshold, dtype=float),
-            sensitivity=np.asarray(settings.sensitivity, dtype=float),
-            lower=np.asarray(situation.bounds.lower, dtype=float),
-            upper=np.asarray(situation.bounds.upper, dtype=float),
-        )
-        self._negotiated = slice(0 if settings.dimensions == "both" else 1, 2)
-        self._count = 0
-        window = max(1, round(settings.force_window / situation.period))
-        self._recent: deque[Observation] = deque(maxlen=window)
-        self._belief = Belief()
-        self._twist = np.zeros(2)
+@dataclass(frozen=True, slots=True, eq=False)
+class Agreement:
+    """What a strategy settles for until the next negotiation.
 
-    def act(self, observation: Observation) -> Array:
-        """See `Automation.act`."""
-        self._recent.append(observation)
-        if self._count % self._steps == 0:
-            self._twist = self._negotiate(observation)
-        self._count += 1
-        return self._twist
+    Attributes
+    ----------
+    twist : ndarray, shape (..., 2)
+        The primitive to execute, m/s and rad/s.
+    target_utility, utility_loss : float or ndarray, shape (...)
+        What the automation demands and gives up, in [0, 1]; NaN for a strategy without such.
+    interaction, interaction_smoothed : float or ndarray, shape (...)
+        The paper's interaction value, in [-2, 2]; NaN for a strategy without it.
+    extras : mapping of str to float
+        A number for each of the strategy's own ``columns``.
+    """
 
-    def belief(self) -> Belief:
-        """See `Automation.belief`."""
-        return self._belief
-
-    def _negotiate(self, observation: Observation) -> Array:
-        twist = observation["twist"]
-        force = self._mean_force()
-        pose = observation["pose_world"]
-        if self._count == 0:
-            self._observer.reset(self._reading, twist)
-            self._loss = np.zeros(twist.shape[:-1])
-            self._interaction_smoother.reset(interaction_value(self._loss, self._loss))
-            self._stubbornness_smoother.reset(np.zeros(twist.shape))
-        estimate, wish = self._observer.update(force, twist)
-        interaction = interaction_value(
-            stubbornness_norm(estimate[..., self._negotiated]), self._loss
-        )
-        smoothed = self._interaction_smoother.update(interaction)
-        self._loss = self.utility_loss(smoothed)
-        problem = PROBLEMS[self.negotiation.dimensions](self.negotiation, self._situation, pose)
-        own = problem.wish()
-        target = 1.0 - self._loss
-        agreed = negotiated(problem, own, self._negotiable(wish), target)
-        self._belief = Belief(
-            stubbornness=estimate,
-            stubbornness_smoothed=self._stubbornness_smoother.update(estimate),
-            human_wish=wish,
-            wish=own,
-            interaction=interaction,
-            interaction_smoothed=smoothed,
-            utility_loss=self._loss,
-            target_utility=target,
-            negotiation=self._belief.negotiation + 1,
-        )
-        return agreed
-
-    def _mean_force(self) -> Array:
-        """Return the mean over the window of what arrived, N, shape (..., 2)."""
-        recent = self._recent
-        force = np.concatenate([seen["force"] for seen in recent], axis=-2)
-        if "force_valid" not in recent[0]:
-            return mean_force(force, None)
-        return mean_force(force, np.concatenate([seen["force_valid"] for seen in recent], axis=-1))
-
-    def _negotiable(self, wish: Array) -> Array:
-        """Return the human's wish with the usual pace where v is not negotiated."""
-        if self.negotiation.dimensions == "both":
-            return wish
-        return np.stack((np.full_like(wish[..., 0], self._situation.pace), wish[..., 1]), axis=-1)
+    twist: Array
+    target_utility: float | Array = np.nan
+    utility_loss: float | Array = np.nan
+    interaction: float | Array = np.nan
+    interaction_smoothed: float | Array = np.nan
+    extras: Mapping[str, float] = field(default_factory=dict)

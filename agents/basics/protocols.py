@@ -6,6 +6,7 @@ is accepted. Its constructor's arguments are its parameters in a scenario file.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Protocol
 
@@ -45,11 +46,13 @@ class Belief:
     Attributes
     ----------
     stubbornness : ndarray, shape (..., 2)
-        Estimated stubbornness per dimension, as read from this negotiation's force, in [0, 1].
+        Estimated stubbornness per dimension, in [0, 1].
+    stubbornness_deviation : ndarray, shape (..., 2)
+        Its standard deviation.
     stubbornness_smoothed : ndarray, shape (..., 2)
-        The same behind the automation's smoother.
-    human_wish : ndarray, shape (..., 2)
-        Estimated human wish, m/s and rad/s.
+        The estimate of each negotiation behind the automation's smoother.
+    human_wish, human_wish_deviation : ndarray, shape (..., 2)
+        Estimated human wish and its standard deviation, m/s and rad/s.
     wish : ndarray, shape (..., 2)
         The automation's own wish, m/s and rad/s.
     interaction, interaction_smoothed : float or ndarray, shape (...)
@@ -58,17 +61,22 @@ class Belief:
         Conceded and demanded utility, in [0, 1].
     negotiation : int
         Number of negotiations so far.
+    extras : mapping of str to float
+        A number for each of the automation's ``columns``.
     """
 
     stubbornness: Array = field(default_factory=_unknown)
+    stubbornness_deviation: Array = field(default_factory=_unknown)
     stubbornness_smoothed: Array = field(default_factory=_unknown)
     human_wish: Array = field(default_factory=_unknown)
+    human_wish_deviation: Array = field(default_factory=_unknown)
     wish: Array = field(default_factory=_unknown)
     interaction: float | Array = np.nan
     interaction_smoothed: float | Array = np.nan
     utility_loss: float | Array = np.nan
     target_utility: float | Array = np.nan
     negotiation: int = 0
+    extras: Mapping[str, float] = field(default_factory=dict)
 
 
 class Human(Protocol):
@@ -88,7 +96,11 @@ class Human(Protocol):
 
 
 class Automation(Protocol):
-    """The decision maker in the automation seat."""
+    """The decision maker in the automation seat.
+
+    One that has numbers of its own to log declares them: ``columns``, a mapping from a name to
+    its unit. They become columns of the trace, filled from `Belief.extras`.
+    """
 
     def reset(self, rng: np.random.Generator, situation: Situation) -> None:
         """Start an episode; all randomness comes from ``rng``."""

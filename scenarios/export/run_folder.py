@@ -17,6 +17,8 @@ FIGURE = "figure.png"
 def write_run(result: RunResult, folder: str | Path, figure: bool = True) -> Path:
     """Write trace.parquet, summary.json, scenario.yaml and figure.png into a folder.
 
+    With samples.parquet, if the run kept single force samples.
+
     Parameters
     ----------
     result : RunResult
@@ -38,6 +40,10 @@ def write_run(result: RunResult, folder: str | Path, figure: bool = True) -> Pat
     """
     folder = writable_folder(folder)
     result.trace.write(folder / "trace.parquet")
+    samples = folder / "samples.parquet"
+    samples.unlink(missing_ok=True)
+    if result.samples is not None:
+        result.samples.write(samples)
     (folder / "summary.json").write_text(json.dumps(result.summary, indent=2) + "\n")
     (folder / "scenario.yaml").write_text(to_yaml(resolve(result.scenario)))
     (folder / FIGURE).unlink(missing_ok=True)

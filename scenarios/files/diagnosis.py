@@ -14,7 +14,7 @@ from cowalk.sim.env.configuration import require_reachable
 from cowalk.sim.plant.protocol import Plant
 from cowalk.sim.world.contact import blocked_start
 
-from ..trace.trace import UNITS
+from ..trace.columns import UNITS
 from .assembling import assemble, elsewhere, surroundings
 from .building import check_parameters
 from .documents import Document, Fault, KeyPath, dotted

@@ -3,45 +3,98 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
+from cowalk.agents.basics.protocols import Belief, Truth
+from cowalk.sim.basics.errors import PartError
 
-class AgentError(Exception):
-    """An agent's answer cannot be used; the message says what it was and what would be right."""
-
-
-def of_kind(answer: Any, kind: type, method: str) -> None:
-    """Raise `AgentError` unless an answer is of a kind."""
-    if not isinstance(answer, kind):
-        raise AgentError(f"{method}() gave {answer!r}; it must be a {kind.__name__}")
+_FORCE = "the force [fx, fy] in N"
+_TWIST = "the twist [v, omega] in m/s and rad/s"
 
 
-def pair(answer: Any, method: str, expected: str) -> list[float]:
-    """Return the two numbers of an answer.
-
-    Parameters
-    ----------
-    answer : Any
-        What the agent returned.
-    method : str
-        Method that returned it.
-    expected : str
-        What it should be, in words.
+def require_force(human: object, answer: Any) -> None:
+    """Refuse what is no force of a human.
 
     Raises
     ------
-    AgentError
+    PartError
         If it is not an array of two finite numbers.
     """
+    _finite_pair(human, "act", answer, _FORCE)
+
+
+def require_twist(automation: object, answer: Any) -> None:
+    """Refuse what is no twist of an automation.
+
+    Raises
+    ------
+    PartError
+        If it is not an array of two finite numbers.
+    """
+    _finite_pair(automation, "act", answer, _TWIST)
+
+
+def require_truth(human: object, truth: Any) -> None:
+    """Refuse what is no truth of a human.
+
+    Raises
+    ------
+    PartError
+        If it is no `Truth`, or one of its arrays is not two finite numbers.
+    """
+    if not isinstance(truth, Truth):
+        raise PartError(human, f"truth() gave {truth!r}; it must be a Truth")
+    _finite_pair(human, "truth", truth.stubbornness, "the stubbornness [v, omega]")
+    _finite_pair(human, "truth", truth.wish, "the wish [v, omega] in m/s and rad/s")
+
+
+def require_belief(automation: object, belief: Any, columns: Mapping[str, str]) -> None:
+    """Refuse what is no belief of an automation; NaN is no opinion, and right.
+
+    Raises
+    ------
+    PartError
+        If it is no `Belief`, one of its arrays is not two numbers, or it brings a number of
+        which ``columns`` says nothing.
+    """
+    if not isinstance(belief, Belief):
+        raise PartError(automation, f"belief() gave {belief!r}; it must be a Belief")
+    for name in _PAIRS:
+        value = getattr(belief, name)
+        if not isinstance(value, np.ndarray) or value.shape != (2,):
+            raise PartError(automation, f"belief().{name} is {_said(value)}; it must be {_PAIR}")
+    for name in _NUMBERS:
+        value = getattr(belief, name)
+        if not isinstance(value, float | int | np.number | np.ndarray) or np.ndim(value):
+            raise PartError(automation, f"belief().{name} is {_said(value)}; it must be one number")
+    for name in belief.extras:
+        if name not in columns:
+            known = ", ".join(columns) or "nothing"
+            raise PartError(automation, f"belief().extras has {name!r}; columns declares {known}")
+
+
+_PAIR = "a NumPy array of shape (2,)"
+_PAIRS = (
+    "stubbornness",
+    "stubbornness_deviation",
+    "stubbornness_smoothed",
+    "human_wish",
+    "human_wish_deviation",
+    "wish",
+)
+_NUMBERS = ("interaction", "interaction_smoothed", "utility_loss", "target_utility", "negotiation")
+
+
+def _finite_pair(part: object, method: str, answer: Any, expected: str) -> None:
     if not isinstance(answer, np.ndarray) or answer.shape != (2,):
-        got = f"an array of shape {answer.shape}" if hasattr(answer, "shape") else repr(answer)
-        raise AgentError(
-            f"{method}() gave {got}; it must be {expected}, a NumPy array of shape (2,)"
-        )
-    values: list[float] = answer.tolist()
-    first, second = values
+        raise PartError(part, f"{method}() gave {_said(answer)}; it must be {expected}, {_PAIR}")
+    first, second = values = answer.tolist()
     if not (math.isfinite(first) and math.isfinite(second)):
-        raise AgentError(f"{method}() gave {values}; {expected} must be finite")
-    return values
+        raise PartError(part, f"{method}() gave {values}; {expected} must be finite")
+
+
+def _said(value: Any) -> str:
+    return f"an array of shape {value.shape}" if hasattr(value, "shape") else repr(value)

@@ -1,13 +1,35 @@
-"""The environment and the agents of a scenario."""
+"""What a run is stepped with: the environment, the agents, what they know, and their seeds."""
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
+import numpy as np
+
 from cowalk.agents.basics.protocols import Automation, Human
+from cowalk.sim.basics.situation import Situation
 from cowalk.sim.env.env import CowalkEnv
 
 from ..files.assembling import build_part
 from ..files.loading import load
 from ..files.schema import Scenario
+from .outlines import extent
+
+
+class Seeds(NamedTuple):
+    """Where the randomness of a run comes from: one source a component.
+
+    Attributes
+    ----------
+    env : int
+        For `CowalkEnv.reset`.
+    human, automation : numpy.random.Generator
+        For their ``reset``.
+    """
+
+    env: int
+    human: np.random.Generator
+    automation: np.random.Generator
 
 
 def make_env(scenario: str | Scenario, render_mode: str | None = None) -> CowalkEnv:
@@ -49,3 +71,22 @@ def build_agents(scenario: Scenario) -> tuple[Human, Automation]:
         If a name or a parameter is not right.
     """
     return build_part(scenario, "human"), build_part(scenario, "automation")
+
+
+def seeds_of(scenario: Scenario) -> Seeds:
+    """Return the seeds of a scenario's components, spawned from its own: always the same."""
+    env, human, automation = np.random.SeedSequence(scenario.seed).spawn(3)
+    generator = np.random.default_rng
+    return Seeds(int(env.generate_state(1)[0]), generator(human), generator(automation))
+
+
+def situation_of(scenario: Scenario, env: CowalkEnv) -> Situation:
+    """Return what both agents know before they start, in an environment that has been reset."""
+    return Situation(
+        scenario.world.path,
+        scenario.pace,
+        scenario.bounds,
+        scenario.rates.period,
+        extent(env),
+        scenario.rates,
+    )

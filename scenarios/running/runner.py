@@ -11,12 +11,8 @@ from functools import cache
 from importlib.metadata import version
 from typing import Any
 
-import numpy as np
-
-from cowalk.agents.basics.protocols import Automation, Belief, Human, Truth
-from cowalk.agents.basics.steering import mirrored, mirrored_observation
-from cowalk.sim.basics.errors import InputError, SimulationError
-from cowalk.sim.basics.situation import Situation
+from cowalk.agents.basics.protocols import Automation, Human
+from cowalk.sim.basics.errors import InputError, PartError, SimulationError
 from cowalk.sim.env.env import CowalkEnv
 
 from ..expect.verdict import judge
@@ -25,13 +21,16 @@ from ..export.run_folder import picture
 from ..files.assembling import named_parts
 from ..files.schema import Scenario
 from ..trace.metrics import metrics
+from ..trace.recorder import Recorder
 from ..trace.result import RunResult
+from ..trace.samples import SampleTable
 from ..trace.sensor_faults import SampleCount
-from ..trace.trace import Trace
+from ..trace.trace import FORMAT, Trace
 from ..watch.watcher import Watcher, close_all
-from .agent_output import AgentError, of_kind, pair
-from .build import build_agents, make_env
-from .outlines import collision, extent, outlines
+from .agent_output import require_belief, require_force, require_truth, require_twist
+from .blame import Blame
+from .build import build_agents, make_env, seeds_of, situation_of
+from .outlines import collision, outlines
 
 _VERSIONED = ("numpy", "scipy", "pybullet", "pettingzoo", "filterpy")
 
@@ -44,6 +43,7 @@ def run(
     progress: Progress | None = None,
     watchers: Sequence[Watcher] = (),
     window: bool = False,
+    samples: bool = False,
 ) -> RunResult:
     """Run a scenario to its end.
 
@@ -54,10 +54,13 @@ def run(
     ----------
     scenario : Scenario
     progress : callable, optional
+        Called with the control steps done and their total.
     watchers : sequence of Watcher
         Told of every control step; they are closed however the run ends.
     window : bool
         Show the run in a window, on the PyBullet plant at no more than real time.
+    samples : bool
+        Keep a row a force sample as well: `RunResult.samples`.
 
     Raises
     ------
@@ -66,10 +69,10 @@ def run(
     """
     human, automation = build_agents(scenario)
     env = make_env(scenario, "human" if window else None)
-    trace, count = Trace(), SampleCount()
+    episode = _Episode(scenario, env, human, automation, progress, watchers, samples)
     started = time.perf_counter()
     try:
-        end, error = _episode(scenario, env, human, automation, trace, count, progress, watchers)
+        end, error = episode.end()
         touched = collision(env) if end == "collision" else None
     finally:
         lost = close_all(watchers)
@@ -77,141 +80,113 @@ def run(
     if lost is not None and error is None:
         end, error = "aborted", f"{scenario.name}: {lost}"
     wall_time = time.perf_counter() - started
-    result = _result(scenario, trace, end, error, wall_time)
-    result.summary |= {"contact": touched, "sensor": count.summary()}
-    if len(trace):
+    result = _result(scenario, episode.recorder.trace, end, error, wall_time)
+    result.summary |= {"contact": touched, "sensor": episode.count.summary()}
+    result.samples = episode.samples
+    if len(result.trace):
         result.outlines = outlines(env)
     return result
 
 
-def _episode(
-    scenario: Scenario,
-    env: CowalkEnv,
-    human: Human,
-    automation: Automation,
-    trace: Trace,
-    count: SampleCount,
-    progress: Progress | None,
-    watchers: Sequence[Watcher],
-) -> tuple[str, str | None]:
-    """Step until the end; return how it ended, and the error if that is why."""
-    env_seed, human_seed, automation_seed = np.random.SeedSequence(scenario.seed).spawn(3)
-    names = {
-        "human": f"human {scenario.human.name!r}",
-        "automation": f"automation {scenario.automation.name!r}",
-        "plant": f"plant {scenario.plant.name!r}",
-        "watcher": " or ".join(f"watcher {type(watcher).__name__!r}" for watcher in watchers),
-    }
-    total = env.steps_per_episode
-    report_every = 1 if watchers else scenario.rates.control
-    infos: dict[str, dict[str, Any]] = {}
-    behind = env.plant.steers_from_behind
-    actor = "plant"
-    try:
-        observations, infos = env.reset(seed=int(env_seed.generate_state(1)[0]))
-        situation = Situation(
-            scenario.world.path,
-            scenario.pace,
-            scenario.bounds,
-            scenario.rates.period,
-            extent(env),
+class _Episode:
+    """One run while it goes on: the loop, and what it keeps."""
+
+    def __init__(
+        self,
+        scenario: Scenario,
+        env: CowalkEnv,
+        human: Human,
+        automation: Automation,
+        progress: Progress | None,
+        watchers: Sequence[Watcher],
+        samples: bool,
+    ) -> None:
+        self._scenario, self._env = scenario, env
+        self._human, self._automation = human, automation
+        self._progress, self._watchers = progress, watchers
+        self.recorder = Recorder(env, human, automation)
+        self.count = SampleCount()
+        self.samples = SampleTable(scenario.rates) if samples else None
+        self._infos: dict[str, dict[str, Any]] = {}
+
+    def end(self) -> tuple[str, str | None]:
+        """Step until the end; return how it ended, and the error if that is why."""
+        scenario = self._scenario
+        try:
+            self._walk()
+        except InputError:
+            raise
+        except SimulationError as failure:
+            return "aborted", f"{scenario.name}: {failure}"
+        except KeyboardInterrupt:
+            return "interrupted", f"{scenario.name}: interrupted by the user"
+        except (Exception, SystemExit) as failure:  # a user's class may raise anything
+            return "aborted", self._blamed(failure)
+        last = self._infos["human"]
+        reasons = [why for why in ("goal", "collision") if last[why]]
+        if last["grip_lost"] and self._env.plant_state.over:
+            reasons.append("grip lost")
+        return (reasons or ["time"])[0], None
+
+    def _walk(self) -> None:
+        """Step the environment until the episode is over; note who acts, for who fails."""
+        scenario, env, human, automation = (
+            self._scenario,
+            self._env,
+            self._human,
+            self._automation,
         )
-        actor = "human"
-        human.reset(np.random.default_rng(human_seed), situation)
-        actor = "automation"
-        automation.reset(np.random.default_rng(automation_seed), situation)
-        actor = "watcher"
-        for watcher in watchers:
+        trace, count, record = self.recorder.trace, self.count, self.recorder.step
+        columns = self.recorder.added
+        report_every = 1 if self._watchers else scenario.rates.control
+        seeds = seeds_of(scenario)
+        self._acting = "plant"
+        observations, self._infos = env.reset(seed=seeds.env)
+        situation = situation_of(scenario, env)
+        self._acting = "human"
+        human.reset(seeds.human, situation)
+        self._acting = "automation"
+        automation.reset(seeds.automation, situation)
+        self._acting = "watcher"
+        for watcher in self._watchers:
             watcher.start(scenario, env)
         while env.agents:
-            if behind:
-                observations = {s: mirrored_observation(o) for s, o in observations.items()}
-            actor = "human"
+            self._acting = "human"
             force = human.act(observations["human"])
-            pair(force, "act", "the force [fx, fy] in N")
-            if behind:
-                force = mirrored(force)
-            truth = _of_truth(human.truth())
-            actor = "automation"
+            require_force(human, force)
+            require_truth(human, human.truth())
+            self._acting = "automation"
             twist = automation.act(observations["automation"])
-            pair(twist, "act", "the twist [v, omega] in m/s and rad/s")
-            belief = _of_belief(automation.belief())
-            actor = "plant"
-            observations, _, _, _, infos = env.step({"human": force, "automation": twist})
+            require_twist(automation, twist)
+            require_belief(automation, automation.belief(), columns)
+            self._acting = "plant"
+            actions = {"human": force, "automation": twist}
+            observations, rewards, _, _, self._infos = env.step(actions)
             count.add(env.sensor_reading)
-            time_now = (len(trace) + 1) / scenario.rates.control
-            trace.append(_row(time_now, env, truth, belief, infos["human"]["clearance"]))
-            for watcher in watchers:
-                actor = "watcher"
+            if self.samples is not None:
+                self.samples.add(env)
+            record(rewards, self._infos)
+            self._acting = "watcher"
+            for watcher in self._watchers:
                 watcher.step(env, trace)
-            if progress is not None and len(trace) % report_every == 0:
-                progress(len(trace), total)
-    except InputError:
-        raise
-    except SimulationError as failure:
-        return "aborted", f"{scenario.name}: {failure}"
-    except KeyboardInterrupt:
-        return "interrupted", f"{scenario.name}: interrupted by the user"
-    except AgentError as failure:
-        when = f"t = {len(trace) * scenario.rates.period:g} s"
-        return "aborted", f"{names[actor]} at {when}: {failure}"
-    except (Exception, SystemExit) as failure:  # a user's class may raise anything
-        when = f"t = {len(trace) * scenario.rates.period:g} s"
-        return "aborted", f"{names[actor]} failed at {when}: {type(failure).__name__}: {failure}"
-    last = infos["human"]
-    reasons = [why for why in ("goal", "collision") if last[why]]
-    if last["grip_lost"] and env.plant_state.over:
-        reasons.append("grip lost")
-    return (reasons or ["time"])[0], None
+            if self._progress is not None and len(trace) % report_every == 0:
+                self._progress(len(trace), env.steps_per_episode)
 
-
-def _of_truth(truth: Truth) -> tuple[float, ...]:
-    of_kind(truth, Truth, "truth")
-    return (
-        *pair(truth.stubbornness, "truth", "the stubbornness [v, omega]"),
-        *pair(truth.wish, "truth", "the wish [v, omega] in m/s and rad/s"),
-    )
-
-
-def _of_belief(belief: Belief) -> tuple[float, ...]:
-    of_kind(belief, Belief, "belief")
-    return (
-        *belief.stubbornness.tolist(),
-        *belief.stubbornness_smoothed.tolist(),
-        *belief.human_wish.tolist(),
-        *belief.wish.tolist(),
-        float(belief.interaction),
-        float(belief.interaction_smoothed),
-        float(belief.utility_loss),
-        float(belief.target_utility),
-        float(belief.negotiation),
-    )
-
-
-def _row(
-    time_now: float,
-    env: CowalkEnv,
-    truth: tuple[float, ...],
-    belief: tuple[float, ...],
-    clearance: float,
-) -> tuple[float, ...]:
-    """Return a trace row, in the order of `cowalk.scenarios.trace.trace.UNITS`."""
-    state, reading = env.plant_state, env.sensor_reading
-    force, twist = env.applied
-    samples = len(reading.wrench)
-    return (
-        time_now,
-        *state.pose,
-        *state.twist,
-        *twist,
-        *(reading.force.sum(axis=0) / samples).tolist(),
-        *(reading.wrench.sum(axis=0) / samples).tolist(),
-        *force,
-        *state.human_pose,
-        *truth,
-        *belief,
-        clearance,
-    )
+    def _blamed(self, failure: BaseException) -> str:
+        """Return who failed when, and how, in one line."""
+        scenario = self._scenario
+        seats = {
+            "human": f"human {scenario.human.name!r}",
+            "automation": f"automation {scenario.automation.name!r}",
+            "plant": f"plant {scenario.plant.name!r}",
+            "watcher": " or ".join(f"watcher {type(each).__name__!r}" for each in self._watchers),
+        }
+        blame = Blame(scenario, self._human, self._automation)
+        name = blame.of(failure, seats[self._acting])
+        when = f"t = {len(self.recorder.trace) * scenario.rates.period:g} s"
+        if isinstance(failure, PartError):
+            return f"{name} at {when}: {failure}"
+        return f"{name} failed at {when}: {type(failure).__name__}: {failure}"
 
 
 @cache
@@ -229,6 +204,7 @@ def _result(
     verdicts = judge(scenario.expect, columns, period) if len(trace) else []
     simulated = len(trace) * period
     summary = {
+        "format": FORMAT,
         "scenario": scenario.name,
         **named_parts(scenario),
         "seed": scenario.seed,

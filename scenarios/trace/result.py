@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from cowalk.sim.plant.discs import PLAIN_BODIES
 from cowalk.sim.world.outline import Outline
 
+from .samples import SampleTable
 from .trace import Trace
 
 if TYPE_CHECKING:
@@ -33,6 +34,8 @@ class RunResult:
         Why the run ended before its time, if it did.
     outlines : dict of str to Outline
         Of the bodies, for pictures; a load's in base axes, as it was held at the end.
+    samples : SampleTable or None
+        A row a force sample, if they were asked for.
     picture : callable, optional
         Returns the result's picture as PNG; notebooks show it.
     """
@@ -43,6 +46,7 @@ class RunResult:
     verdicts: list[Verdict] = field(default_factory=list)
     error: str | None = None
     outlines: dict[str, Outline] = field(default_factory=lambda: PLAIN_BODIES.outlines)
+    samples: SampleTable | None = None
     picture: Callable[[RunResult], bytes] | None = field(default=None, repr=False, compare=False)
 
     @property

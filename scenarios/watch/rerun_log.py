@@ -19,7 +19,6 @@ from cowalk.sim.view.shapes import Place, plain_figures, plain_places
 
 from ..export.file import writable_file
 from ..figures.style import AUTOMATION, HUMAN, HUMAN_FORWARD, MUTED
-from ..trace.trace import UNITS
 from .rerun_shapes import archetypes
 from .watcher import Filmed, arc_points
 
@@ -127,7 +126,7 @@ class RerunLog:
 
     def step(self, env: CowalkEnv, trace: Trace) -> None:
         """See `Watcher.step`."""
-        row = dict(zip(UNITS, trace.values[-1].tolist(), strict=True))
+        row = trace.last()
         rr, log = self._rr, self._stream.log
         self._stream.set_time(TIMELINE, duration=row["t"])
         self._show_bodies(env)

@@ -17,7 +17,6 @@ from cowalk.sim.view.camera import Camera, level_camera
 
 from ..export.file import writable_file
 from ..figures.style import AUTOMATION, HUMAN
-from ..trace.trace import UNITS
 from .video_frame import (
     FORCE,
     HEADER,
@@ -114,7 +113,7 @@ class Video:
 
     def picture(self, env: CowalkEnv, trace: Trace) -> NDArray[np.uint8]:
         """Return the frame of the trace's last row, uint8, shape (544, 960, 3)."""
-        row = dict(zip(UNITS, trace.values[-1].tolist(), strict=True))
+        row = trace.last()
         frame = self._frame
         frame.clear()
         frame.clock(row["t"])

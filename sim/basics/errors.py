@@ -35,3 +35,19 @@ class InputError(ValueError):
 
 class SimulationError(RuntimeError):
     """The simulation cannot go on (a force is not finite, a body diverged)."""
+
+
+class PartError(Exception):
+    """A replaceable part gave what cannot be used.
+
+    Parameters
+    ----------
+    part : object
+        The part to blame.
+    message : str
+        What it gave, and what it must be.
+    """
+
+    def __init__(self, part: object, message: str) -> None:
+        super().__init__(message)
+        self.part = part

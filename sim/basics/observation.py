@@ -21,11 +21,11 @@ class Observation(TypedDict):
         Executed twist of the base, m/s and rad/s.
     force : ndarray, shape (..., samples, 2)
         Force of the human on the base at every sensor sample of the last control step, base
-        axes, N. The automation gets the sensor's reading, the human feels the force itself.
+        axes, N. The automation gets what the sensor read, the human feels the force itself.
+        Where the hands hold on behind the point about which the base turns, the sideways force
+        has the sign of the turn that it asks for (`cowalk.sim.env.steering`).
     wrench : ndarray, shape (..., samples, 6)
-        Force (N) and torque (N m) of the human on the base at the same samples. The automation
-        gets the sensor's reading in the sensor's axes, about its origin; the human feels the
-        wrench itself in base axes, about the handle.
+        The same force (N), and the torque about the handle (N m), base axes.
     force_valid : ndarray, shape (..., samples)
         1 where the sample arrived, 0 where it was lost and ``force`` and ``wrench`` repeat the one
         before.

@@ -7,7 +7,8 @@ from typing import Protocol
 
 from numpy.typing import ArrayLike
 
-from cowalk.sim.basics.path import Path
+from .path import Path
+from .rates import Rates
 
 SIDE_BY_SIDE = (0.28, 0.87, 0.32)
 """Extent of a human to the right of the base that ships, the left hand on its handle, m."""
@@ -42,6 +43,8 @@ class Situation:
     extent : (left, right, behind)
         How far base, human and what they carry reach from the base's centre as they set out, m.
         Without it, as human and base do side by side.
+    rates : Rates
+        Of control, physics and force sensor.
     """
 
     path: Path
@@ -49,3 +52,4 @@ class Situation:
     bounds: Bounds
     period: float
     extent: tuple[float, float, float] = SIDE_BY_SIDE
+    rates: Rates = Rates()

@@ -9,6 +9,7 @@ from ..basics.errors import InputError
 from ..basics.frames import Vector
 from ..engine.engine import WorldState, engine, load
 from ..robot.drive import Command, DriveParameters
+from ..robot.wheels import wheel_speeds
 from ..urdf.read import Rigid
 from .chains import State, free_body
 
@@ -99,8 +100,7 @@ class WheelBase:
         self._client = client
         self._centre = rigid.centre
         self._command = Command(parameters, step)
-        self._half = parameters.wheel_track / 2.0
-        self._radius = parameters.wheel_radius
+        self._wheels = parameters.wheel_track, parameters.wheel_radius
         torque = parameters.max_force * parameters.wheel_radius / 2.0
         self._torques = (torque, torque)
         engine.setGravity(0.0, 0.0, -GRAVITY, client)
@@ -152,16 +152,13 @@ class WheelBase:
             body, (vx - rate * lever[1], vy + rate * lever[0], 0.0), (0.0, 0.0, rate), client
         )
         forward = cos * vx + sin * vy
-        for joint, side in ((0, 1.0), (1, -1.0)):
-            speed = (forward - side * rate * self._half) / self._radius
+        for joint, speed in enumerate(wheel_speeds(forward, rate, *self._wheels)):
             engine.resetJointState(body, joint, 0.0, speed, client)
         self._turns, self._last = yaw - math.remainder(yaw, math.tau), math.remainder(yaw, math.tau)
 
     def drive(self, state: State, cos: float, sin: float, extra: Vector) -> None:
         """See `Base.drive`."""
-        speed, rate = self._command.advance()
-        turn = rate * self._half
-        targets = ((speed - turn) / self._radius, (speed + turn) / self._radius)
+        targets = wheel_speeds(*self._command.advance(), *self._wheels)
         client, body = self._client, self.body
         engine.setJointMotorControlArray(
             body,

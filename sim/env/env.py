@@ -26,6 +26,7 @@ from .configuration import Configuration
 from .perception import Perception, observation_space
 from .resumable import CLOSED, ResumableEnv
 from .reward import NO_TERMS, Reward, RewardParameters, reward_parameters
+from .steering import as_pushed
 
 STRAIGHT_CORRIDOR = World(path=Path(((0.0, 0.0), (20.0, 0.0))), corridor=Corridor(width=3.0))
 """The world of `parallel_env` without arguments: nothing in it, nothing to negotiate."""
@@ -36,7 +37,8 @@ _ENDS = ("goal", "collision", "grip_lost")
 class CowalkEnv(ResumableEnv):
     """Human and automation walk one base; each is an agent, both act once a control step.
 
-    The human's action is the intended hand force on the base ``[fx, fy]``, base axes, N; the
+    The human's action is the intended hand force on the base ``[fx, fy]``, base axes, N, a
+    sideways one with the sign of the turn that it asks for (`cowalk.sim.env.steering`); the
     automation's is the twist to execute ``[v, omega]``, m/s and rad/s. Actions beyond the
     action space are clipped to it. Both seats perceive the same dict of named boxes: ``twist``
     (2,), ``force`` (samples, 2), ``wrench`` (samples, 6), ``force_valid`` (samples,), ``pose``
@@ -131,13 +133,15 @@ class CowalkEnv(ResumableEnv):
         self.observation_spaces = dict.fromkeys(SEATS, observation_space(rates.samples))
         self._distances = self._plant.distances(world)
         self._reward = Reward(pace, rates.period, given.reward)
-        self._perceive = Perception(world, self._plant.bodies, rates.samples)
+        self._from_behind = self._plant.steers_from_behind
+        bodies = self._plant.bodies
+        self._perceive = Perception(world, bodies, rates.samples, self._from_behind)
         self._sensor = ForceSensor(sensor, rates.sensor)
         self._generator = np.random.default_rng()
         self._step_count = 0
         self._started = self._closed = False
         self.applied = (0.0, 0.0), (0.0, 0.0)
-        """Force (N) and twist (m/s, rad/s) of the last step, clipped to the action spaces."""
+        """Force on the base (N, base axes) and twist (m/s, rad/s) of the last step, clipped."""
         self._terms = NO_TERMS
 
     def observation_space(self, agent: str) -> Dict:
@@ -225,7 +229,9 @@ class CowalkEnv(ResumableEnv):
         if not self.agents:
             what = "no episode is under way: call reset before step"
             raise SimulationError(CLOSED if self._closed else what)
-        force, twist = self.applied = self._actions.of_both(actions, self._time)
+        force, twist = self._actions.of_both(actions, self._time)
+        force = as_pushed(force, self._from_behind)
+        self.applied = force, twist
         state = self._state = self._plant.step(twist, force)
         self._step_count += 1
         self._reading = self._sensor.measure(state.wrench_on_base, state.mount)

@@ -12,6 +12,7 @@ from ..sensor.sensor import Reading
 from ..world.eyes import Eyes
 from ..world.outline import Bodies
 from ..world.world import World
+from .steering import as_felt
 
 
 def observation_space(samples: int) -> Dict:
@@ -39,11 +40,14 @@ class Perception:
         Where each seat sees from.
     samples : int
         Force samples in a control step.
+    from_behind : bool
+        Whether a push to the left asks for a turn to the right (`Plant.steers_from_behind`).
     """
 
-    def __init__(self, world: World, bodies: Bodies, samples: int) -> None:
+    def __init__(self, world: World, bodies: Bodies, samples: int, from_behind: bool) -> None:
         self._human, self._automation = (Eyes(world, seat, bodies.eyes[seat]) for seat in SEATS)
         self._arrived = np.ones(samples)
+        self._from_behind = from_behind
 
     def __call__(
         self,
@@ -65,12 +69,13 @@ class Perception:
             Since reset, s.
         """
         pose, human_pose = state.pose, state.human_pose
-        wrench = state.wrench_on_base
+        felt = as_felt(state.wrench_on_base, self._from_behind)
+        read = as_felt(reading.wrench_on_base, self._from_behind)
         return {
             "human": Observation(
                 twist=np.array(state.twist),
-                force=wrench[:, :2].copy(),
-                wrench=wrench.copy(),
+                force=felt[:, :2].copy(),
+                wrench=felt,
                 force_valid=self._arrived.copy(),
                 pose=np.array(relative_pose),
                 pose_world=np.array(pose),
@@ -79,8 +84,8 @@ class Perception:
             ),
             "automation": Observation(
                 twist=np.array(state.twist),
-                force=reading.force.copy(),
-                wrench=reading.wrench.copy(),
+                force=read[:, :2].copy(),
+                wrench=read,
                 force_valid=reading.valid.astype(float),
                 pose=np.array(relative_pose),
                 pose_world=np.array(pose),

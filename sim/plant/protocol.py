@@ -6,6 +6,7 @@ Two plants ship, `cowalk.sim.unicycle.plant` (kinematic, the paper's) and `cowal
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -44,6 +45,9 @@ class PlantState:
         Since reset, s.
     load_pose : (x, y, theta), optional
         Of what the two carry, world axes: m, m, rad.
+    work : float
+        Of the human on the base at the handle during the step, J: the integral of F v + M omega
+        over the physics steps. NaN for a plant that does not know it.
     """
 
     pose: tuple[float, float, float]
@@ -55,6 +59,7 @@ class PlantState:
     over: bool = False
     time: float = 0.0
     load_pose: tuple[float, float, float] | None = None
+    work: float = math.nan
 
     @property
     def poses(self) -> tuple[tuple[float, float, float], ...]:
@@ -85,6 +90,11 @@ class Plant(Protocol):
     @property
     def bodies(self) -> Bodies:
         """What it moves: outlines, and where the seats see from. It never changes."""
+        ...
+
+    @property
+    def wheels(self) -> tuple[float, float] | None:
+        """Track and radius of the driven wheels, m, or None where there are none."""
         ...
 
     def reset(self, world: World, rng: np.random.Generator) -> PlantState:

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-import numpy as np
+from typing import TypeVar
 
 from ..basics.motion import Array
 
+Value = TypeVar("Value", float, Array)
 
-def wheel_speeds(twist: Array, track: float, radius: float) -> Array:
+
+def wheel_speeds(v: Value, omega: Value, track: float, radius: float) -> tuple[Value, Value]:
     """Return the angular speeds of the left and the right wheel, rad/s.
 
     Parameters
     ----------
-    twist : ndarray, shape (..., 2)
-        v in m/s and omega in rad/s.
+    v, omega : float or ndarray, shape (...)
+        m/s and rad/s.
     track : float
         Distance of the wheels, m.
     radius : float
@@ -21,18 +23,11 @@ def wheel_speeds(twist: Array, track: float, radius: float) -> Array:
 
     Returns
     -------
-    ndarray, shape (..., 2)
+    (left, right)
         (v -/+ omega track / 2) / radius.
     """
-    v, omega = twist[..., 0], twist[..., 1]
     turn = omega * track / 2.0
-    return np.stack((v - turn, v + turn), axis=-1) / radius
-
-
-def twist_of(speeds: Array, track: float, radius: float) -> Array:
-    """Return the twist, shape (..., 2), of wheel speeds (left, right) in rad/s."""
-    left, right = speeds[..., 0] * radius, speeds[..., 1] * radius
-    return np.stack(((left + right) / 2.0, (right - left) / track), axis=-1)
+    return (v - turn) / radius, (v + turn) / radius
 
 
 def limited(

@@ -26,9 +26,9 @@ class Reading(NamedTuple):
 
     Attributes
     ----------
-    force : ndarray, shape (n, 2)
-        Planar force in base axes that follows from the wrench and the sensor's known mount, N,
-        oldest sample first.
+    wrench_on_base : ndarray, shape (n, 6)
+        Force (N) and torque about the handle (N m), base axes, that follow from what the sensor
+        reads and its known mount; oldest sample first.
     wrench : ndarray, shape (n, 6)
         Force (N) and torque about the sensor's origin (N m), sensor axes: what the sensor reads.
     valid : ndarray of bool, shape (n,)
@@ -37,10 +37,15 @@ class Reading(NamedTuple):
         True where a channel was at the end of its range.
     """
 
-    force: Array
+    wrench_on_base: Array
     wrench: Array
     valid: Flags
     saturated: Flags
+
+    @property
+    def force(self) -> Array:
+        """The planar force on the base, base axes, N, shape (n, 2)."""
+        return self.wrench_on_base[:, :2]
 
 
 class ForceSensor:
@@ -154,9 +159,9 @@ class ForceSensor:
         """
         wrench = in_sensor_frame(wrench_on_base, mount)
         if self._exact:
-            return Reading(wrench_on_base[:, :2], wrench, *all_well(len(wrench)))
+            return Reading(wrench_on_base, wrench, *all_well(len(wrench)))
         wrench, valid, saturated = self._transmission(*self._convert(wrench))
-        return Reading(in_base_frame(wrench, mount)[:, :2], wrench, valid, saturated)
+        return Reading(in_base_frame(wrench, mount), wrench, valid, saturated)
 
     def _convert(self, wrench: Array) -> tuple[Array, list[int]]:
         """Return what the converter puts out, a fresh array, and its rows that are saturated."""

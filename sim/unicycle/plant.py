@@ -29,6 +29,7 @@ class UnicyclePlant:
     """
 
     steers_from_behind = False
+    wheels = None
 
     def __init__(self, rates: Rates) -> None:
         self._period = rates.period
@@ -97,6 +98,8 @@ class UnicyclePlant:
             ),
             wrench_on_base=wrench,
             time=self._steps * self._period,
+            # The force acts at the centre, which moves along the arc.
+            work=self._hand_force[0] * self._twist[0] * self._period if self._steps else 0.0,
         )
 
     def distances(self, world: World) -> Clearance:

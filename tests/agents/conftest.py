@@ -26,6 +26,7 @@ def observe():
             "twist": np.array(twist, dtype=float),
             "force": np.tile(np.array(force, dtype=float), (12, 1)),
             "wrench": np.tile((*np.array(force, dtype=float), 0.0, 0.0, 0.0, 0.0), (12, 1)),
+            "force_valid": np.ones(12),
             "pose": np.array(pose, dtype=float),
             "pose_world": np.array(pose, dtype=float),  # the path is the world's x axis
             "obstacles": rows,

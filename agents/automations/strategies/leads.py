@@ -6,20 +6,20 @@ import numpy as np
 
 from cowalk.sim.basics.motion import Array
 
-from ..negotiation import NegotiatingAutomation
+from ..interaction import InteractionStrategy
 
 
-class NeverYields(NegotiatingAutomation):
+class NeverYields(InteractionStrategy):
     """Executes its own wish whatever the human does: U_target = 1."""
 
     def utility_loss(self, interaction_smoothed: Array) -> Array:
-        """See `NegotiatingAutomation.utility_loss`."""
+        """See `InteractionStrategy.utility_loss`."""
         return np.zeros_like(interaction_smoothed)
 
 
-class AlwaysYields(NegotiatingAutomation):
+class AlwaysYields(InteractionStrategy):
     """Executes the human's estimated wish: U_target = 0 (the human leads, as in Boink 2014)."""
 
     def utility_loss(self, interaction_smoothed: Array) -> Array:
-        """See `NegotiatingAutomation.utility_loss`."""
+        """See `InteractionStrategy.utility_loss`."""
         return np.ones_like(interaction_smoothed)

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from cowalk.estimation.front_ends.protocol import FrontEnd
 from cowalk.estimation.laws.stubbornness import utility_loss
 from cowalk.estimation.observers.protocol import Observer
 from cowalk.estimation.smoothers.protocol import Smoother
 from cowalk.sim.basics.motion import Array
 
-from ..negotiation import NegotiatingAutomation
+from ..interaction import InteractionStrategy
 from ..planner.settings import NegotiationSettings
 
 
-class StubbornnessAutomation(NegotiatingAutomation):
+class StubbornnessAutomation(InteractionStrategy):
     """Concedes with the smoothed interaction value, so with the human's stubbornness.
 
     U_target = 1 - (I - I_min)/(I_max - I_min) (Schneider et al., arXiv 2407.17275). With
@@ -22,8 +23,8 @@ class StubbornnessAutomation(NegotiatingAutomation):
     interaction_min, interaction_max : float
         Smoothed interaction value at which nothing, and everything, is conceded. Inferred:
         the paper calls them selectable and does not print them.
-    negotiation, smoother, observer
-        See `NegotiatingAutomation`.
+    negotiation, front_end, observer, smoother
+        See `InteractionStrategy`.
 
     Raises
     ------
@@ -36,10 +37,11 @@ class StubbornnessAutomation(NegotiatingAutomation):
         interaction_min: float = -2.0,
         interaction_max: float = 2.0,
         negotiation: NegotiationSettings | None = None,
-        smoother: Smoother | None = None,
+        front_end: FrontEnd | None = None,
         observer: Observer | None = None,
+        smoother: Smoother | None = None,
     ) -> None:
-        super().__init__(negotiation, smoother, observer)
+        super().__init__(negotiation, front_end, observer, smoother)
         if not interaction_min < interaction_max:
             raise ValueError(
                 f"interaction_min = {interaction_min} must lie below "
@@ -48,5 +50,5 @@ class StubbornnessAutomation(NegotiatingAutomation):
         self._range = (interaction_min, interaction_max)
 
     def utility_loss(self, interaction_smoothed: Array) -> Array:
-        """See `NegotiatingAutomation.utility_loss`."""
+        """See `InteractionStrategy.utility_loss`."""
         return utility_loss(interaction_smoothed, *self._range)

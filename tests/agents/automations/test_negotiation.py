@@ -195,6 +195,8 @@ def test_the_wish_on_a_bent_path_turns_with_it(name):
             {
                 "twist": twist,
                 "force": np.zeros((1, 2)),
+                "wrench": np.zeros((1, 6)),
+                "force_valid": np.ones(1),
                 "pose": bent.path.relative_pose(pose),
                 "pose_world": pose,
                 "obstacles": np.zeros((8, 4)),

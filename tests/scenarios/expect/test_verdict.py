@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from cowalk.scenarios.expect.verdict import explain, judge, syntax_error
-from cowalk.scenarios.trace.trace import UNITS
+from cowalk.scenarios.trace.columns import UNITS
 from cowalk.sim.basics.errors import InputError
 
 PERIOD = 0.05

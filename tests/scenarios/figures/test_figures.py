@@ -15,8 +15,9 @@ from cowalk.scenarios.figures.run import draw_paper_panels, draw_run, draw_utili
 from cowalk.scenarios.figures.style import FAULT
 from cowalk.scenarios.figures.top_view import window_of
 from cowalk.scenarios.files.schema import Scenario
+from cowalk.scenarios.trace.columns import UNITS
 from cowalk.scenarios.trace.result import RunResult
-from cowalk.scenarios.trace.trace import UNITS, Trace
+from cowalk.scenarios.trace.trace import Trace
 from cowalk.sim.basics.motion import arc_displacement, compose
 from cowalk.sim.basics.path import Path
 from cowalk.sim.world.outline import across, rectangle
@@ -67,9 +68,9 @@ def result(rows=400, chosen=None, columns=None, **attributes):
     data["clearance"] = np.hypot(data["x"] - 9.0, data["y"]) - 0.68
     for name, values in (columns or {}).items():
         data[name] = np.broadcast_to(values, rows)
-    trace = Trace(max(rows, 1))
+    trace = Trace(capacity=max(rows, 1))
     for row in zip(*data.values(), strict=True):
-        trace.append(row)
+        trace.append(dict(zip(data, row, strict=True)))
     return RunResult(chosen or scenario(), trace, attributes.pop("summary", {}), **attributes)
 
 

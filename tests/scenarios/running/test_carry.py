@@ -3,13 +3,12 @@
 import numpy as np
 import pytest
 
-from cowalk.agents.basics.steering import mirrored
-from cowalk.scenarios.files.loading import load
+from cowalk.scenarios import load, make_env, run
 from cowalk.scenarios.files.schema import Component
-from cowalk.scenarios.running import runner
-from cowalk.scenarios.running.build import make_env
-from cowalk.scenarios.running.runner import run
-from cowalk.sim.basics.errors import InputError
+from cowalk.sim import InputError
+from cowalk.sim.env import env as environment
+from cowalk.sim.env import perception
+from cowalk.sim.env.steering import as_felt, as_pushed
 
 
 def short(**changes):
@@ -38,8 +37,8 @@ def test_a_push_at_the_tail_is_read_as_the_turn_that_was_meant():
 
 def test_pushing_to_the_side_one_wants_to_turn_to_goes_wrong_at_the_tail(monkeypatch):
     assert run(load("carry")).passed
-    monkeypatch.setattr(runner, "mirrored", lambda force: force)
-    monkeypatch.setattr(runner, "mirrored_observation", lambda observation: observation)
+    monkeypatch.setattr(environment, "as_pushed", lambda force, _: force)
+    monkeypatch.setattr(perception, "as_felt", lambda wrench, _: wrench.copy())
     assert not run(load("carry")).passed
 
 
@@ -52,10 +51,28 @@ def test_only_the_stretcher_is_steered_from_behind(scenario, behind):
     env.close()
 
 
-def test_mirroring_twice_changes_nothing():
-    force = np.array([[1.0, -2.0], [3.0, 4.0]])
-    np.testing.assert_array_equal(mirrored(force), [[1.0, 2.0], [3.0, -4.0]])
-    np.testing.assert_array_equal(mirrored(mirrored(force)), force)
+@pytest.mark.parametrize("scenario", ["carry", "walk"])
+def test_agents_feel_and_read_sideways_force_with_the_sign_of_the_turn_it_asks_for(scenario):
+    env = make_env(load(scenario, ["sensor=none"]))
+    env.reset(seed=0)
+    for _ in range(10):
+        seen, *_ = env.step({"human": np.array([1.0, 4.0]), "automation": np.array([0.5, 0.0])})
+    sign = -1.0 if env.plant.steers_from_behind else 1.0
+    assert env.applied[0] == (1.0, sign * 4.0)
+    turned = env.plant_state.wrench_on_base * [1.0, sign, 1.0, 1.0, 1.0, 1.0]
+    for seat in ("human", "automation"):
+        np.testing.assert_array_equal(seen[seat]["wrench"], turned)
+        np.testing.assert_array_equal(seen[seat]["force"], turned[:, :2])
+    assert seen["human"]["force"][-1, 1] > 2.0
+    env.close()
+
+
+def test_turning_the_sign_twice_changes_nothing():
+    wrench = np.arange(12.0).reshape(2, 6)
+    np.testing.assert_array_equal(as_felt(wrench, True)[:, 1], [-1.0, -7.0])
+    np.testing.assert_array_equal(as_felt(as_felt(wrench, True), True), wrench)
+    assert as_pushed((1.0, 2.0), True) == (1.0, -2.0)
+    assert as_pushed((1.0, 2.0), False) == (1.0, 2.0)
 
 
 @pytest.mark.parametrize(

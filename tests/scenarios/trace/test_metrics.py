@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
+from cowalk.scenarios.trace.columns import UNITS
 from cowalk.scenarios.trace.metrics import metrics
-from cowalk.scenarios.trace.trace import UNITS
 from cowalk.sim.basics.path import Path
 
 PERIOD = 0.05

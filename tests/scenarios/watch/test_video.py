@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from cowalk.scenarios import load, make_env, run
-from cowalk.scenarios.trace.trace import UNITS, Trace
+from cowalk.scenarios.trace.trace import Trace
 from cowalk.scenarios.watch.video import ARROW_ABOVE, Video
 from cowalk.scenarios.watch.video_frame import FORCE, HEADER, HEIGHT, INSET, VIEW, WIDTH
 from cowalk.sim.basics.errors import InputError
@@ -48,8 +48,8 @@ class Stills:
 
     def step(self, env, trace):
         own = Trace()
-        last = dict(zip(UNITS, trace.values[-1], strict=True))
-        own.append(tuple((last | self.row).values()))
+        last = trace.last()
+        own.append(last | self.row)
         self.env, self.frame = env, self.video.picture(env, own)
         plant = env.plant
         if hasattr(plant, "viewer"):

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.robot.drive import Command, DriveParameters
-from cowalk.sim.robot.wheels import limited, twist_of, wheel_speeds
+from cowalk.sim.robot.wheels import limited, wheel_speeds
 
 speeds, rates = st.floats(-5.0, 5.0), st.floats(-10.0, 10.0)
 LIMITS = (1.5, 1.5, 0.42, 2.0)
@@ -17,15 +17,16 @@ LIMITS = (1.5, 1.5, 0.42, 2.0)
 
 def test_turning_on_the_spot_and_straight_ahead():
     np.testing.assert_allclose(
-        wheel_speeds(np.array([[1.0, 0.0], [0.0, 2.0]]), 0.4, 0.1), [[10.0, 10.0], [-4.0, 4.0]]
+        wheel_speeds(np.array([1.0, 0.0]), np.array([0.0, 2.0]), 0.4, 0.1),
+        [[10.0, -4.0], [10.0, 4.0]],
     )
 
 
 @given(speeds, rates, st.floats(0.1, 1.0), st.floats(0.02, 0.3))
 def test_wheel_speeds_and_back(v, omega, track, radius):
-    twist = np.array([[[v, omega]]])
-    back = twist_of(wheel_speeds(twist, track, radius), track, radius)
-    np.testing.assert_allclose(back, twist, atol=1e-9)
+    left, right = wheel_speeds(v, omega, track, radius)
+    assert (left + right) * radius / 2.0 == pytest.approx(v, abs=1e-9)
+    assert (right - left) * radius / track == pytest.approx(omega, abs=1e-9)
 
 
 @given(speeds, rates)
@@ -33,7 +34,7 @@ def test_limits_hold_and_keep_the_curve(v, omega):
     slow_v, slow_omega = limited((v, omega), *LIMITS)
     assert abs(slow_v) <= 1.5 + 1e-12
     assert abs(slow_omega) <= 1.5 + 1e-12
-    rim = wheel_speeds(np.array([slow_v, slow_omega]), 0.42, 1.0)
+    rim = wheel_speeds(slow_v, slow_omega, 0.42, 1.0)
     assert np.abs(rim).max() <= 2.0 + 1e-12
     assert slow_v * omega == pytest.approx(slow_omega * v)
     assert slow_v * v >= 0.0

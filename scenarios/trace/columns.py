@@ -1,0 +1,93 @@
+"""Every column of a trace and its unit."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from cowalk.sim.basics.errors import InputError
+
+UNITS = {
+    "t": "s",
+    "x": "m",
+    "y": "m",
+    "theta": "rad",
+    "v": "m/s",
+    "omega": "rad/s",
+    "v_cmd": "m/s",
+    "omega_cmd": "rad/s",
+    "fx": "N",
+    "fy": "N",
+    "sensor_force_x": "N",
+    "sensor_force_y": "N",
+    "sensor_force_z": "N",
+    "sensor_torque_x": "N m",
+    "sensor_torque_y": "N m",
+    "sensor_torque_z": "N m",
+    "fx_intent": "N",
+    "fy_intent": "N",
+    "human_x": "m",
+    "human_y": "m",
+    "human_theta": "rad",
+    "true_stubbornness_v": "1",
+    "true_stubbornness_omega": "1",
+    "true_v": "m/s",
+    "true_omega": "rad/s",
+    "est_stubbornness_v": "1",
+    "est_stubbornness_omega": "1",
+    "smoothed_stubbornness_v": "1",
+    "smoothed_stubbornness_omega": "1",
+    "est_v": "m/s",
+    "est_omega": "rad/s",
+    "wish_v": "m/s",
+    "wish_omega": "rad/s",
+    "interaction": "1",
+    "interaction_smoothed": "1",
+    "utility_loss": "1",
+    "target_utility": "1",
+    "negotiation": "1",
+    "clearance": "m",
+    "interaction_force_x": "N",
+    "interaction_force_y": "N",
+    "interaction_force_z": "N",
+    "interaction_torque_x": "N m",
+    "interaction_torque_y": "N m",
+    "interaction_torque_z": "N m",
+    "work": "J",
+    "wheel_left": "rad/s",
+    "wheel_right": "rad/s",
+    "est_stubbornness_deviation_v": "1",
+    "est_stubbornness_deviation_omega": "1",
+    "est_deviation_v": "m/s",
+    "est_deviation_omega": "rad/s",
+    "negotiated": "1",
+    "reward_human": "1",
+    "reward_automation": "1",
+}
+"""Every column that each trace has and its unit, in the order of the file.
+
+Row k describes control step k: the state at its end, the decisions in force during it, and
+what was measured averaged over it. `fx` and `fy` are the measured force in base axes,
+`sensor_...` the whole reading in the sensor's axes, about its origin, `interaction_...` the
+wrench itself before the sensor, base axes, about the handle. `work` is what the human did to the
+base at the handle in the step, `wheel_...` what the command asks of the driven wheels, and
+`negotiated` is 1 in a step that began with a negotiation. Columns that an automation or its
+observer adds follow these.
+"""
+
+
+def all_columns(added: Mapping[str, str]) -> dict[str, str]:
+    """Return the columns of a trace, with those that parts add, and their units.
+
+    Raises
+    ------
+    InputError
+        If an added name is taken, or it or its unit is no text.
+    """
+    for name, unit in added.items():
+        if not (isinstance(name, str) and name and isinstance(unit, str)):
+            raise InputError(
+                f"column {name!r}: {unit!r}: give a name and a unit, {{'urgency': '1'}}"
+            )
+        if name in UNITS:
+            raise InputError(f"column {name!r}: every trace has it; give another name")
+    return UNITS | dict(added)

@@ -1,0 +1,67 @@
+"""Named columns with units, as a Parquet file that every tool reads."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from pathlib import Path
+
+import numpy as np
+
+from cowalk.sim.basics.errors import InputError
+from cowalk.sim.basics.motion import Array
+
+_FORM = b"cowalk.format"
+
+
+def write_columns(
+    file: Path,
+    columns: Mapping[str, Array],
+    units: Mapping[str, str],
+    form: int,
+    whole: Collection[str] = (),
+) -> None:
+    """Write columns, each field with its unit as metadata ``unit``.
+
+    Parameters
+    ----------
+    file : Path
+    columns : mapping of str to ndarray, shape (rows,)
+    units : mapping of str to str
+    form : int
+        Number of the form, kept in the file's metadata as ``cowalk.format``.
+    whole : collection of str
+        Columns of whole numbers; NaN becomes 0 in them.
+    """
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    fields, arrays = [], []
+    for name, column in columns.items():
+        values = np.nan_to_num(column).astype(np.int64) if name in whole else column
+        array = pa.array(values)
+        fields.append(pa.field(name, array.type, metadata={"unit": units[name]}))
+        arrays.append(array)
+    schema = pa.schema(fields, metadata={_FORM: str(form)})
+    pq.write_table(pa.Table.from_arrays(arrays, schema=schema), file)
+
+
+def read_columns(file: Path) -> tuple[dict[str, Array], dict[str, str], int]:
+    """Return columns, their units, and the number of the form, 1 where the file has none.
+
+    Raises
+    ------
+    InputError
+        If it is no such file.
+    """
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    try:
+        table = pq.read_table(file)
+    except (OSError, pa.ArrowInvalid) as error:
+        raise InputError(f"{file}: cannot be read as a Parquet file ({error})") from error
+    units = {
+        field.name: (field.metadata or {}).get(b"unit", b"").decode() for field in table.schema
+    }
+    form = int((table.schema.metadata or {}).get(_FORM, b"1"))
+    return {name: table.column(name).to_numpy() for name in table.column_names}, units, form

@@ -1,0 +1,78 @@
+"""Where the numbers of a trace's row come from, by the names of its columns."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from cowalk.agents.basics.protocols import Belief, Truth
+from cowalk.sim.env.env import CowalkEnv
+from cowalk.sim.robot.wheels import wheel_speeds
+
+from .columns import UNITS
+
+
+def of_state(env: CowalkEnv) -> dict[str, float]:
+    """Return what a row says of plant and sensor after a control step."""
+    state, reading = env.plant_state, env.sensor_reading
+    force, (v, omega) = env.applied
+    samples = len(reading.wrench)
+    wheels = env.plant.wheels
+    left, right = wheel_speeds(v, omega, *wheels) if wheels else (np.nan, np.nan)
+    return dict(
+        zip(
+            _STATE,
+            (
+                *state.pose,
+                *state.twist,
+                v,
+                omega,
+                *(reading.force.sum(axis=0) / samples).tolist(),
+                *(reading.wrench.sum(axis=0) / samples).tolist(),
+                *force,
+                *state.human_pose,
+                *(state.wrench_on_base.sum(axis=0) / samples).tolist(),
+                state.work,
+                left,
+                right,
+            ),
+            strict=True,
+        )
+    )
+
+
+_STATE = (
+    *("x", "y", "theta", "v", "omega", "v_cmd", "omega_cmd", "fx", "fy"),
+    *(name for name in UNITS if name.startswith("sensor_")),
+    *("fx_intent", "fy_intent", "human_x", "human_y", "human_theta"),
+    *(name for name in UNITS if name.startswith(("interaction_force", "interaction_torque"))),
+    *("work", "wheel_left", "wheel_right"),
+)
+
+
+def of_truth(truth: Truth) -> dict[str, float]:
+    """Return what a row says of what the human wants."""
+    return pair("true_stubbornness", truth.stubbornness) | pair("true", truth.wish)
+
+
+def of_belief(belief: Belief) -> dict[str, float]:
+    """Return what a row says of what the automation believes, its own columns included."""
+    return {
+        **pair("est_stubbornness", belief.stubbornness),
+        **pair("est_stubbornness_deviation", belief.stubbornness_deviation),
+        **pair("smoothed_stubbornness", belief.stubbornness_smoothed),
+        **pair("est", belief.human_wish),
+        **pair("est_deviation", belief.human_wish_deviation),
+        **pair("wish", belief.wish),
+        "interaction": float(belief.interaction),
+        "interaction_smoothed": float(belief.interaction_smoothed),
+        "utility_loss": float(belief.utility_loss),
+        "target_utility": float(belief.target_utility),
+        "negotiation": float(belief.negotiation),
+        **belief.extras,
+    }
+
+
+def pair(name: str, values: np.ndarray) -> dict[str, float]:
+    """Return two numbers, of v and of omega, by the names of their columns."""
+    v, omega = values.tolist()
+    return {f"{name}_v": v, f"{name}_omega": omega}

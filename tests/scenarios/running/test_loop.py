@@ -1,0 +1,193 @@
+"""A loop of one's own over the PettingZoo environment is the run, bit for bit."""
+
+import numpy as np
+import pytest
+
+from cowalk.scenarios import (
+    Recorder,
+    build_agents,
+    library,
+    load,
+    make_env,
+    run,
+    seeds_of,
+    situation_of,
+)
+
+
+def walked(scenario):
+    """Step a scenario's agents by hand, as anybody would who knows PettingZoo."""
+    env = make_env(scenario)
+    human, automation = build_agents(scenario)
+    recorder = Recorder(env, human, automation)
+    seeds = seeds_of(scenario)
+    observations, _ = env.reset(seed=seeds.env)
+    situation = situation_of(scenario, env)
+    human.reset(seeds.human, situation)
+    automation.reset(seeds.automation, situation)
+    while env.agents:
+        actions = {
+            "human": human.act(observations["human"]),
+            "automation": automation.act(observations["automation"]),
+        }
+        observations, rewards, _, _, infos = env.step(actions)
+        recorder.step(rewards, infos)
+    env.close()
+    return recorder.trace
+
+
+@pytest.mark.parametrize("name", library())
+def test_a_hand_written_loop_gives_the_trace_of_run(name):
+    scenario = load(name)
+    found, expected = walked(scenario), run(scenario).trace
+    assert found.units == expected.units
+    assert len(found) > 100
+    assert found.values.tobytes() == expected.values.tobytes()
+
+
+FAULTY = """
+import numpy as np
+from cowalk.agents import InteractionStrategy, Truth
+from cowalk.agents.imperfections.wrapper import Imperfection
+from cowalk.estimation import Estimate, MovingAverage, PaperObserver
+
+
+class FrontEnd:
+    delay = 0.0
+
+    def __init__(self, kind: str = "raises"):
+        self.kind = kind
+
+    def reset(self, rates):
+        self.blocks = 0
+
+    def update(self, wrench, valid):
+        self.blocks += 1
+        if self.blocks < 30:
+            return wrench
+        if self.kind == "shape":
+            return wrench[:, :2]
+        raise ZeroDivisionError("no samples")
+
+
+class Smoother(MovingAverage):
+    def update(self, value):
+        raise KeyError("window")
+
+
+class Observer(PaperObserver):
+    def __init__(self, kind: str = "raises"):
+        self.kind = kind
+
+    def update(self, sample, own_wish):
+        found = super().update(sample, own_wish)
+        if sample.time < 1.0:
+            return found
+        if self.kind == "tuple":
+            return found.stubbornness, found.wish
+        if self.kind == "nan":
+            return Estimate(found.stubbornness, found.wish * np.nan)
+        return np.ones(3) @ np.ones(2)
+
+
+class Imperfect(Imperfection):
+    def distort(self, force, observation):
+        raise OSError("no hand")
+
+
+class Talker(InteractionStrategy):
+    columns = {"urgency": "1"}
+
+    def utility_loss(self, smoothed):
+        return np.zeros_like(smoothed)
+
+    def agree(self, negotiation):
+        from dataclasses import replace
+        return replace(super().agree(negotiation), extras={"hurry": 1.0})
+"""
+FRONT_END = "automation.front_end=faulty:FrontEnd"
+OBSERVER = "automation.observer=faulty:Observer"
+
+
+@pytest.mark.parametrize(
+    ("changes", "who", "what"),
+    [
+        ([FRONT_END], "front end 'faulty:FrontEnd'", "ZeroDivisionError: no samples"),
+        (
+            [FRONT_END, "automation.front_end.parameters.kind=shape"],
+            "front end 'faulty:FrontEnd'",
+            "array of shape (12, 2); it must be the block of samples, cleaned",
+        ),
+        (["automation.smoother=faulty:Smoother"], "smoother 'faulty:Smoother'", "KeyError"),
+        ([OBSERVER], "observer 'faulty:Observer'", "ValueError"),
+        (
+            [OBSERVER, "automation.observer.parameters.kind=tuple"],
+            "observer 'faulty:Observer'",
+            "it must be an Estimate",
+        ),
+        (
+            [OBSERVER, "automation.observer.parameters.kind=nan"],
+            "observer 'faulty:Observer'",
+            "gave wish = [nan nan]",
+        ),
+        (
+            ["human.imperfections=[{name: 'faulty:Imperfect'}]"],
+            "imperfection 'faulty:Imperfect'",
+            "OSError: no hand",
+        ),
+        (
+            ["automation=faulty:Talker"],
+            "automation 'faulty:Talker'",
+            "belief().extras has 'hurry'; columns declares urgency",
+        ),
+    ],
+)
+def test_a_part_that_fails_is_blamed_by_its_own_name(changes, who, what, tmp_path, monkeypatch):
+    (tmp_path / "faulty.py").write_text(FAULTY)
+    monkeypatch.syspath_prepend(tmp_path)
+    result = run(load("puddle", [*changes, "plant=unicycle", "duration=5", "expect={}"]))
+    assert result.error is not None
+    assert result.error.startswith(who), result.error
+    assert what in result.error
+
+
+def test_what_automation_and_observer_add_becomes_columns(tmp_path, monkeypatch):
+    text = FAULTY.replace('extras={"hurry": 1.0}', 'extras={"urgency": negotiation.time}')
+    (tmp_path / "talking.py").write_text(text)
+    monkeypatch.syspath_prepend(tmp_path)
+    swap = ["automation=talking:Talker", "plant=unicycle", "duration=5", "expect={}"]
+    trace = run(load("puddle", swap)).trace
+    assert trace.units["urgency"] == "1"
+    instants = np.flatnonzero(trace["negotiated"])
+    np.testing.assert_array_equal(instants, np.arange(0, 100, 14))
+    np.testing.assert_allclose(trace["urgency"][instants], 0.05 * instants)
+    held = np.repeat(trace["urgency"][instants], 14)[:100]
+    np.testing.assert_array_equal(trace["urgency"], held)
+
+
+def test_rows_say_what_the_sensor_made_of_the_true_wrench_and_what_wheels_are_asked():
+    result = run(load("puddle", ["sensor=laboratory", "duration=5", "expect={}"]))
+    trace = result.trace
+    error = trace["fx"] - trace["interaction_force_x"]
+    assert 0.001 < np.abs(error).max() < 1.0
+    rim = 0.1 * trace["wheel_left"], 0.1 * trace["wheel_right"]
+    np.testing.assert_allclose(0.5 * (rim[0] + rim[1]), trace["v_cmd"], atol=1e-12)
+    np.testing.assert_allclose((rim[1] - rim[0]) / 0.42, trace["omega_cmd"], atol=1e-12)
+    exact = run(load("puddle", ["sensor=none", "duration=5", "expect={}"])).trace
+    np.testing.assert_array_equal(exact["fx"], exact["interaction_force_x"])
+
+
+def test_samples_are_kept_at_the_sensors_rate_when_asked_for(tmp_path):
+    scenario = load("puddle", ["sensor=industrial", "duration=4", "expect={}"])
+    result = run(scenario, samples=True)
+    assert run(scenario).samples is None
+    columns = result.samples.columns()
+    assert len(result.samples) == 4 * 240
+    np.testing.assert_allclose(np.diff(columns["t"]), 1.0 / 240.0)
+    for axis in "xy":
+        mean = columns[f"measured_force_{axis}"].reshape(-1, 12).mean(axis=1)
+        np.testing.assert_allclose(mean, result.trace[f"f{axis}"], atol=1e-12)
+        true = columns[f"interaction_force_{axis}"].reshape(-1, 12).mean(axis=1)
+        np.testing.assert_allclose(true, result.trace[f"interaction_force_{axis}"], atol=1e-12)
+    assert 0.0 < np.abs(columns["measured_force_x"] - columns["interaction_force_x"]).max() < 30.0
+    assert set(np.unique(columns["valid"])) <= {0.0, 1.0}
