@@ -1,6 +1,6 @@
 from .export.run_folder import write_run as write_run
-from .files.loading import library as library
 from .files.loading import load as load
+from .files.loading import scenario_library as scenario_library
 from .files.schema import Scenario as Scenario
 from .people.population import load_population as load_population
 from .running.build import build_agents as build_agents

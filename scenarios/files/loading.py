@@ -47,7 +47,7 @@ class FileFault:
         return f"{self.file}:{self.line}: {self.message}"
 
 
-def library() -> dict[str, Path]:
+def scenario_library() -> dict[str, Path]:
     """Return the scenarios that ship: file by name."""
     folder = Path(str(files("cowalk.scenarios.library")))
     return {file.name.removesuffix(SUFFIX): file for file in sorted(folder.glob(f"*{SUFFIX}"))}
@@ -61,7 +61,7 @@ def find(source: str | Path) -> Path:
     InputError
         If there is none.
     """
-    known = library()
+    known = scenario_library()
     if isinstance(source, str) and source in known:
         return known[source]
     path = Path(source)

@@ -2,7 +2,7 @@ import re
 
 import pytest
 
-from cowalk.scenarios.files.loading import faults, library, load, to_yaml
+from cowalk.scenarios.files.loading import faults, load, scenario_library, to_yaml
 from cowalk.sim.basics.errors import InputError
 
 
@@ -18,8 +18,8 @@ def refusal(source, *overrides):
 
 
 def test_every_shipped_scenario_loads_by_its_name():
-    assert {"puddle", "paper-open-loop"} <= set(library())
-    for name, file in library().items():
+    assert {"puddle", "paper-open-loop"} <= set(scenario_library())
+    for name, file in scenario_library().items():
         assert load(name).name == name
         assert faults(file) == []
 
@@ -28,7 +28,7 @@ def test_a_scenario_is_found_by_its_path_too(scenario_file):
     assert load(scenario_file()).name == load(str(scenario_file())).name == "walk"
 
 
-@pytest.mark.parametrize("name", sorted(library()))
+@pytest.mark.parametrize("name", sorted(scenario_library()))
 def test_what_is_written_loads_as_an_equal_scenario(name, tmp_path):
     scenario = load(name)
     copy = tmp_path / "copy.yaml"

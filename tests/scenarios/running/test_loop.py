@@ -6,10 +6,10 @@ import pytest
 from cowalk.scenarios import (
     Recorder,
     build_agents,
-    library,
     load,
     make_env,
     run,
+    scenario_library,
     seeds_of,
     situation_of,
 )
@@ -36,7 +36,7 @@ def walked(scenario):
     return recorder.trace
 
 
-@pytest.mark.parametrize("name", library())
+@pytest.mark.parametrize("name", scenario_library())
 def test_a_hand_written_loop_gives_the_trace_of_run(name):
     scenario = load(name)
     found, expected = walked(scenario), run(scenario).trace

@@ -11,7 +11,7 @@ import pytest
 from cowalk.agents import AUTOMATIONS, HUMANS
 from cowalk.estimation.registry import SMOOTHERS
 from cowalk.scenarios import load, make_env, run, write_run
-from cowalk.scenarios.files.loading import library
+from cowalk.scenarios.files.loading import scenario_library
 from cowalk.scenarios.trace.columns import UNITS
 from cowalk.scenarios.trace.trace import Trace
 from cowalk.sim.basics.errors import InputError
@@ -29,7 +29,7 @@ def puddle():
     return run(load("puddle"))
 
 
-@pytest.mark.parametrize("name", list(library()))
+@pytest.mark.parametrize("name", list(scenario_library()))
 def test_every_scenario_repeats_bit_for_bit_in_another_process(name):
     here = trace_of(name)
     code = (
