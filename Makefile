@@ -35,7 +35,7 @@ lint: .venv/develop  ## Check style and formatting
 	$(BIN)/ruff format --check .
 
 types: .venv/develop  ## Check the types of what is shipped
-	rm -rf build/types
+	rm -rf build
 	$(PIP) --no-deps --target build/types .
 	MYPYPATH=build/types $(BIN)/mypy
 

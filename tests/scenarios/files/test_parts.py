@@ -11,7 +11,7 @@ from cowalk.scenarios import run
 from cowalk.scenarios.files import parts
 from cowalk.scenarios.files.assembling import build_part
 from cowalk.scenarios.files.documents import parse
-from cowalk.scenarios.files.loading import faults, library, load, read
+from cowalk.scenarios.files.loading import faults, load, read, scenario_library
 from cowalk.scenarios.files.parts import Part
 from cowalk.scenarios.files.schema import part_of, with_named
 from cowalk.sim.basics.errors import InputError
@@ -133,7 +133,7 @@ def test_without_its_row_the_kind_is_unknown_again(scenario_file):
 
 def named(name):
     """Yield every option that swaps a part, with the name that a shipped scenario has there."""
-    data = parse(library()[name].read_text()).data
+    data = parse(scenario_library()[name].read_text()).data
     for part in parts.parts():
         section = data
         for step in part.section:
@@ -145,7 +145,7 @@ def named(name):
 
 NAMED_AGAIN = [
     pytest.param(name, part, value, id=f"{name}-{part.flag}")
-    for name in sorted(library())
+    for name in sorted(scenario_library())
     for part, value in named(name)
 ]
 
