@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 from ..basics.errors import InputError
 from ..basics.frames import Vector
 from ..basics.registry import did_you_mean
-from ..basics.validators import shown
+from ..basics.validators import require, require_text
 from ..urdf.read import Rigid, left_right_swapped, lump, read_robot
 from ..urdf.solids import Solid, robot_outline, robot_solids
 from ..world.outline import Outline, disc
@@ -49,11 +49,10 @@ class RobotParameters:
     camera: str = "camera"
 
     def __post_init__(self) -> None:
-        if not isinstance(self.urdf, str | os.PathLike | None):
-            raise InputError(f"urdf = {shown(self.urdf)}: the path of a URDF file is expected")
+        right = self.urdf is None or (isinstance(self.urdf, str | os.PathLike) and self.urdf != "")
+        require(right, "urdf", self.urdf, "the path of a URDF file is expected")
         for name in ("handle", "camera"):
-            if not isinstance(value := getattr(self, name), str):
-                raise InputError(f"{name} = {shown(value)}: the name of a link is expected")
+            require_text(name, getattr(self, name), "the name of a link")
 
 
 @dataclass(frozen=True)

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.motion import TwistBounds
+from cowalk.sim.basics.parameters import parameters
 from cowalk.sim.basics.path import Path
 from cowalk.sim.basics.rates import Rates
-from cowalk.sim.basics.validators import parameters
 from cowalk.sim.body.anthropometry import BodyParameters
 from cowalk.sim.body.gait import GaitParameters
 from cowalk.sim.body.grip import GripParameters
