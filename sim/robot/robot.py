@@ -93,6 +93,14 @@ def robot_of(parameters: RobotParameters, hand: str, coupling: str) -> Robot:
     InputError
         If the file or a named link is missing, a mesh cannot be read, or the robot has no mass.
     """
+    try:
+        return _robot_of(parameters, hand, coupling)
+    except InputError as error:
+        raise error.inside("robot") from error
+
+
+def _robot_of(parameters: RobotParameters, hand: str, coupling: str) -> Robot:
+    """Return the robot; errors say where in its parameters they are."""
     if parameters.urdf is None:
         rear = hand == "both" or coupling == "stretcher"
         name = "base_rear.urdf" if rear else "base.urdf"
@@ -119,7 +127,7 @@ def robot_of(parameters: RobotParameters, hand: str, coupling: str) -> Robot:
 def _place_of(rigid: Rigid, parameter: str, name: str) -> Vector:
     if name not in rigid.places:
         hint = did_you_mean(name, sorted(rigid.places))
-        raise InputError(f"robot.{parameter}: no link {name!r}; {hint}")
+        raise InputError(f"{parameter}: no link {name!r}; {hint}", (parameter,))
     return rigid.places[name]
 
 
@@ -142,7 +150,7 @@ def _absolute_meshes(root: ElementTree.Element, folder: Path) -> None:
             for mesh in link.findall(f"{kind}/geometry/mesh"):
                 given = mesh.get("filename", "")
                 path = _mesh_path(given, folder)
-                fault = f'robot: link {link.get("name", "")!r}, <{kind}>: <mesh filename="{given}">'
+                fault = f'link {link.get("name", "")!r}, <{kind}>: <mesh filename="{given}">'
                 if not path.is_file():
                     raise InputError(f"{fault}: there is no mesh {str(path)!r}")
                 if kind == "visual" and path.suffix.lower() not in DRAWN:
