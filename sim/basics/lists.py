@@ -13,6 +13,7 @@ import numpy as np
 
 from .validators import (
     Range,
+    between,
     is_array,
     is_number,
     lies,
@@ -67,9 +68,7 @@ def require_pairs(given: Any, ranges: Mapping[str, Range], axis: int = 0) -> Non
             holds = isinstance(value, tuple | list) and len(value) == 2
             holds = holds and all(is_number(part) or is_array(part) for part in value)
         require(holds, name, value, "must be two numbers, for v and for omega")
-        low, high, unit = within
-        what = f"must lie between {low:g} and {high:g}{unit and f' {unit}'}"
-        require(all(lies(part, within) for part in value), name, value, what)
+        require(all(lies(part, within) for part in value), name, value, between(within))
 
 
 def require_rows(given: Any, name: str, columns: Sequence[Range], least: int, what: str) -> None:

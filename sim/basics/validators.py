@@ -73,12 +73,10 @@ def require_range(place: Place, value: Any, within: Range, lanes: bool = False) 
     InputError
         With the place, the value and the range.
     """
-    low, high, unit = within
-    of = f" {unit}" if unit else ""
+    unit = within[2]
     if not (is_number(value) or (lanes and is_array(value))):
-        raise refusal(place, value, f"a number is expected{of and f', in{of}'}")
-    what = f"must lie between {low:g} and {high:g}{of}"
-    require(lies(value, within), place, value, what, unit)
+        raise refusal(place, value, f"a number is expected{unit and f', in {unit}'}")
+    require(lies(value, within), place, value, between(within), unit)
 
 
 def require_ranges(given: Any, ranges: Mapping[str, Range], lanes: bool = False) -> None:
@@ -215,6 +213,12 @@ def _or_default(default: Any, within: Range) -> str:
 def is_array(value: Any) -> TypeGuard[np.ndarray]:
     """Return whether a value is an array of numbers, not an empty one."""
     return isinstance(value, np.ndarray) and value.dtype.kind in "iuf" and value.size > 0
+
+
+def between(within: Range) -> str:
+    """Return what must hold of a number in a range, for messages."""
+    low, high, unit = within
+    return f"must lie between {low:g} and {high:g}{unit and f' {unit}'}"
 
 
 def lies(value: Any, within: Range) -> bool:
