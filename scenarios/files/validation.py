@@ -115,12 +115,6 @@ def _refusal(details: ErrorDetails, path: KeyPath, at: KeyPath) -> Fault | None:
         return None
     said = details["ctx"]["error"]
     error = said if isinstance(said, InputError) else InputError(str(said))
-    if not error.at:  # TEMPORARY, until every constructor gives the place
-        first = str(error).partition(" ")[0].rstrip(":,")
-        if isinstance(details["input"], dict) and first in details["input"]:
-            error = InputError(str(error), (first,))
-        elif path and first == dotted((*at, *path)):
-            error = InputError(str(error), (path[-1],))
     if error.at and path[-len(error.at) :] == error.at and not isinstance(details["input"], dict):
         path = path[: -len(error.at)]  # who judges a single value names it
     place = (*at, *path)

@@ -34,7 +34,7 @@ class Rates:
             if rate % base:
                 near = max(1, round(rate / base)) * base
                 what = f"is not a whole multiple of {slow} = {base} Hz; {near} would be"
-                raise InputError(f"{fast} = {rate} Hz {what}", (fast,))
+                raise InputError(f"{fast} = {rate} Hz {what}")
 
     @property
     def period(self) -> float:

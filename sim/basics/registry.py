@@ -11,7 +11,6 @@ from typing import Any, Generic, TypeVar
 
 from .errors import InputError
 from .own_modules import named_module
-from .validators import require, require_instance, require_text
 
 T = TypeVar("T")
 F = TypeVar("F", bound=Callable[..., Any])
@@ -111,6 +110,9 @@ class Registry(Generic[T]):
         entry_point_group: str | None = None,
         protocol: type[Any] | None = None,
     ) -> None:
+        # It imports numpy, which whoever asks for help need not wait for.
+        from .validators import require, require_instance, require_text
+
         require_text("kind", kind)
         right = isinstance(built_in, Mapping)
         right = right and all(isinstance(item, str) for pair in built_in.items() for item in pair)
