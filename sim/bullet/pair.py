@@ -8,7 +8,7 @@ from typing import Any, NoReturn
 
 import numpy as np
 
-from ..basics.errors import InputError
+from ..basics.errors import InputError, SimulationError
 from ..basics.frames import Vector
 from ..basics.motion import Array
 from ..basics.validators import refusal
@@ -52,6 +52,12 @@ class KeptByEngine:
             "copied or pickled once it was reset: use save and restore in the environment itself, "
             "or make another one"
         )
+
+
+MAX_SPEED = 5.0
+"""Speed of a body beyond which the simulation counts as diverged, m/s (inferred)."""
+MAX_RATE = 20.0
+"""Turning rate of a body beyond which the simulation counts as diverged, rad/s (inferred)."""
 
 
 @dataclass(frozen=True)
@@ -195,7 +201,24 @@ class Pair:
         self.hands.restore(hands)
         self.base.restore(drive)
 
-    def velocities(self) -> list[tuple[str, State]]:
+    def refuse_divergence(self) -> None:
+        """Refuse bodies that move as none does.
+
+        Raises
+        ------
+        SimulationError
+            If one is faster than `MAX_SPEED` or turns faster than `MAX_RATE`.
+        """
+        for name, (vx, vy, rate) in self._velocities():
+            # Written so that a NaN fails it.
+            if not (vx * vx + vy * vy < MAX_SPEED**2 and abs(rate) < MAX_RATE):
+                raise SimulationError(
+                    f"the {name} moves at ({vx:.3g}, {vy:.3g}) m/s and {rate:.3g} rad/s: "
+                    f"diverged (beyond {MAX_SPEED} m/s, {MAX_RATE} rad/s); "
+                    "see what was commanded, and the gains of walker, grip and drive"
+                )
+
+    def _velocities(self) -> list[tuple[str, State]]:
         """Return name and (vx, vy, rate) of every body, m/s and rad/s."""
         n = len(self.human_state) // 2
         bodies = [("base", self.base_state[3:]), ("human", self.human_state[n : n + 3])]

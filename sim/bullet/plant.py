@@ -29,16 +29,13 @@ from ..world.world import World
 from .chains import State
 from .distances import EngineClearance
 from .pair import Pair, PairParameters
+from .pictures import Pictures
 
 if TYPE_CHECKING:
     from ..view.viewer import Viewer
 
 MAX_HELD = 3
 """Physics steps for which the human's joint forces are held at most: muscles need no 240 Hz."""
-MAX_SPEED = 5.0
-"""Speed of a body beyond which the simulation counts as diverged, m/s (inferred)."""
-MAX_RATE = 20.0
-"""Turning rate of a body beyond which the simulation counts as diverged, rad/s (inferred)."""
 NO_WRENCH = (0.0, 0.0, 0.0)
 
 
@@ -113,7 +110,7 @@ class BulletPlant:
         self._gait = Gait(gait, period)
         self._walker = Walker(walker, pair.body, pair.place, self._gait, pair.human.mass, period)
         self._gui = gui
-        self._viewer: Viewer | None = None
+        self._pictures = Pictures(gui)
         self._world: World | None = None
         self._distances: WeakSet[EngineClearance] = WeakSet()  # who drops one frees it
         self._steps = 0
@@ -237,14 +234,7 @@ class BulletPlant:
 
     def _state(self, wrench: Array, work: float = 0.0) -> PlantState:
         pair = self._pair
-        for name, (vx, vy, rate) in pair.velocities():
-            # Written so that a NaN fails it.
-            if not (vx * vx + vy * vy < MAX_SPEED**2 and abs(rate) < MAX_RATE):
-                raise SimulationError(
-                    f"the {name} moves at ({vx:.3g}, {vy:.3g}) m/s and {rate:.3g} rad/s: "
-                    f"diverged (beyond {MAX_SPEED} m/s, {MAX_RATE} rad/s); "
-                    "see what was commanded, and the gains of walker, grip and drive"
-                )
+        pair.refuse_divergence()
         x, y, yaw, vx, vy, rate = pair.base_state
         human = pair.human_state
         load = pair.load_state
@@ -289,38 +279,21 @@ class BulletPlant:
 
     def viewer(self) -> Viewer:
         """Return what shows this plant, posed as it is now."""
-        return self._view()
-
-    def _view(self) -> Viewer:
         assert self._world is not None, "reset before render"
-        if self._viewer is None or self._viewer.world != self._world:
-            if self._viewer is not None:
-                self._viewer.close()
-            # Slow to import, with what it draws by; most runs are not looked at.
-            from ..view.viewer import Viewer
-
-            self._viewer = Viewer(self._world, self._pair.look, self._gui)
-        pair = self._pair
-        x, y, yaw, vx, vy, _ = pair.base_state
-        joints = pair.human_state[: len(pair.human_state) // 2]
-        speed = math.cos(yaw) * vx + math.sin(yaw) * vy
         phase = self._gait.phase if self._gait.enabled else None
-        now = self._steps * self._rates.period
-        self._viewer.show((x, y, yaw), joints, pair.load_state[:3], phase, speed, now)
-        return self._viewer
+        return self._pictures.of(self._world, self._pair, phase, self._steps * self._rates.period)
 
     def _watch(self) -> None:
         if self._gui:
-            self._view().wait(self._rates.period)
+            self.viewer().wait(self._rates.period)
 
     def render(self, width: int, height: int) -> NDArray[np.uint8]:
         """See `Plant.render`: a chase camera, rendered in software."""
-        return self._view().picture(width, height)
+        return self.viewer().picture(width, height)
 
     def close(self) -> None:
         """See `Plant.close`."""
-        if self._viewer is not None:
-            self._viewer.close()
+        self._pictures.close()
         for distances in tuple(self._distances):
             distances.close()
         self._pair.close()

@@ -14,19 +14,19 @@ from ..basics.observation import Observation
 from ..basics.path import Path
 from ..basics.rates import Rates
 from ..basics.seats import SEATS
-from ..plant.protocol import Plant, PlantState
 from ..plant.registry import build_plant
 from ..sensor.parameters import SensorParameters
 from ..sensor.presets import sensor_preset
-from ..sensor.sensor import ForceSensor, Reading
+from ..sensor.sensor import ForceSensor
 from ..world.contact import blocked_start
 from ..world.world import Corridor, World
 from .actions import Actions
 from .configuration import Configuration
 from .perception import Perception, observation_space
-from .resumable import CLOSED, ResumableEnv
+from .resumable import CLOSED
 from .reward import NO_TERMS, Reward, RewardParameters, reward_parameters
 from .steering import as_pushed
+from .watched import WatchedEnv
 
 STRAIGHT_CORRIDOR = World(path=Path(((0.0, 0.0), (20.0, 0.0))), corridor=Corridor(width=3.0))
 """The world of `parallel_env` without arguments: nothing in it, nothing to negotiate."""
@@ -34,7 +34,7 @@ STRAIGHT_CORRIDOR = World(path=Path(((0.0, 0.0), (20.0, 0.0))), corridor=Corrido
 _ENDS = ("goal", "collision", "grip_lost")
 
 
-class CowalkEnv(ResumableEnv):
+class CowalkEnv(WatchedEnv):
     """Human and automation walk one base; each is an agent, both act once a control step.
 
     The human's action is the intended hand force on the base ``[fx, fy]``, base axes, N, a
@@ -152,17 +152,6 @@ class CowalkEnv(ResumableEnv):
         """Return the action space of a seat."""
         return self.action_spaces[agent]
 
-    @property
-    def plant(self) -> Plant:
-        """The plant: truth, for those who watch, not for the seats."""
-        return self._plant
-
-    @property
-    def plant_state(self) -> PlantState:
-        """State of the plant after the last step or reset: truth, not for the seats."""
-        self._require("plant_state")
-        return self._state
-
     def reset(
         self, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[dict[str, Observation], dict[str, dict[str, Any]]]:
@@ -255,44 +244,6 @@ class CowalkEnv(ResumableEnv):
             dict.fromkeys(SEATS, late),
             {seat: dict(self._info) for seat in SEATS},
         )
-
-    @property
-    def measured_force(self) -> Array:
-        """Planar force that the sensor read in the last step, N, base axes, shape (samples, 2)."""
-        self._require("measured_force")
-        return self._reading.force
-
-    @property
-    def sensor_reading(self) -> Reading:
-        """All that it read, in its own axes too, with flags for what was lost or out of range."""
-        self._require("sensor_reading")
-        return self._reading
-
-    @property
-    def reward_terms(self) -> dict[str, dict[str, float]]:
-        """What each term added to each seat's reward in the last step; zeros after a reset.
-
-        They sum up to the reward but for rounding.
-        """
-        self._require("reward_terms")
-        return self._reward.by_name(self._terms)
-
-    def render(self) -> np.ndarray | None:
-        """Return a picture, uint8, shape (480, 640, 3), or show it in mode ``"human"``.
-
-        Raises
-        ------
-        SimulationError
-            If there was no `reset` yet, or the environment is closed.
-        """
-        self._require("render", opened=True)
-        if self.render_mode == "rgb_array":
-            return self._plant.render(640, 480)
-        if self._window_needed:
-            from ..view.window import show
-
-            show(self._plant.render(640, 480))
-        return None
 
     def close(self) -> None:
         """Free the plant. May be called twice."""
