@@ -23,6 +23,7 @@ from ..files.schema import Scenario
 from ..trace.metrics import metrics
 from ..trace.recorder import Recorder
 from ..trace.result import RunResult
+from ..trace.rewards import RewardSum
 from ..trace.samples import SampleTable
 from ..trace.sensor_faults import SampleCount
 from ..trace.trace import FORMAT, Trace
@@ -81,7 +82,8 @@ def run(
         end, error = "aborted", f"{scenario.name}: {lost}"
     wall_time = time.perf_counter() - started
     result = _result(scenario, episode.recorder.trace, end, error, wall_time)
-    result.summary |= {"contact": touched, "sensor": episode.count.summary()}
+    counted = {"sensor": episode.count.summary(), "reward": episode.earned.summary()}
+    result.summary |= {"contact": touched, **counted}
     result.samples = episode.samples
     if len(result.trace):
         result.outlines = outlines(env)
@@ -105,7 +107,7 @@ class _Episode:
         self._human, self._automation = human, automation
         self._progress, self._watchers = progress, watchers
         self.recorder = Recorder(env, human, automation)
-        self.count = SampleCount()
+        self.count, self.earned = SampleCount(), RewardSum()
         self.samples = SampleTable(scenario.rates) if samples else None
         self._infos: dict[str, dict[str, Any]] = {}
 
@@ -163,6 +165,7 @@ class _Episode:
             actions = {"human": force, "automation": twist}
             observations, rewards, _, _, self._infos = env.step(actions)
             count.add(env.sensor_reading)
+            self.earned.add(env.reward_terms)
             if self.samples is not None:
                 self.samples.add(env)
             record(rewards, self._infos)

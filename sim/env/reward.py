@@ -8,9 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ..basics.parameters import parameters
 from ..basics.seats import SEATS
-from ..basics.validators import Range, require_ranges
+from ..basics.validators import Range, parameters, require_ranges
 from ..plant.protocol import PlantState
 
 _WEIGHT: Range = (-1000.0, 1000.0, "")
@@ -131,6 +130,11 @@ class Reward:
     ) -> None:
         self._pace, self._period, self._given = pace, period, given
         self._weights = {seat: getattr(given, seat).of_each() for seat in SEATS}
+        signed = (period, -period, -period, -period, -period, 1.0, -1.0)
+        self._factors = {
+            seat: tuple(sign * weight for sign, weight in zip(signed, weights, strict=True))
+            for seat, weights in self._weights.items()
+        }
 
     def terms(
         self,
@@ -182,16 +186,12 @@ class Reward:
 
     def by_name(self, terms: Terms) -> dict[str, dict[str, float]]:
         """Return what each term adds to the reward of each seat; costs are negative."""
-        progress, *costs, arrival, collision = terms
-        signed = (progress, *(-cost for cost in costs), arrival, -collision)
-        dt = self._period
-        during = (dt, dt, dt, dt, dt, 1.0, 1.0)
         return {
             seat: {
-                name: weight * share * term + 0.0  # no -0.0
-                for name, weight, share, term in zip(TERMS, weights, during, signed, strict=True)
+                name: factor * term + 0.0  # no -0.0
+                for name, factor, term in zip(TERMS, factors, terms, strict=True)
             }
-            for seat, weights in self._weights.items()
+            for seat, factors in self._factors.items()
         }
 
 
