@@ -31,6 +31,10 @@ from .watched import WatchedEnv
 STRAIGHT_CORRIDOR = World(path=Path(((0.0, 0.0), (20.0, 0.0))), corridor=Corridor(width=3.0))
 """The world of `parallel_env` without arguments: nothing in it, nothing to negotiate."""
 
+Flags = dict[str, bool]
+Stepped = tuple[dict[str, Observation], dict[str, float], Flags, Flags, dict[str, dict[str, Any]]]
+"""By seat: observations, rewards, whether terminated, whether truncated, infos."""
+
 _ENDS = ("goal", "collision", "grip_lost")
 
 
@@ -106,17 +110,9 @@ class CowalkEnv(WatchedEnv):
     ) -> None:
         sensor = sensor_preset(sensor) if isinstance(sensor, str) else sensor
         own = {} if plant_parameters is None else plant_parameters
+        earned = reward_parameters(reward)
         self._configuration = given = Configuration(
-            world,
-            plant,
-            own,
-            rates,
-            sensor,
-            bounds,
-            pace,
-            duration,
-            force_limit,
-            reward_parameters(reward),
+            world, plant, own, rates, sensor, bounds, pace, duration, force_limit, earned
         )
         self.world, self.rates, self.bounds, self.pace = world, rates, bounds, pace
         self.steps_per_episode = given.steps
@@ -132,10 +128,9 @@ class CowalkEnv(WatchedEnv):
         self.action_spaces = self._actions.spaces
         self.observation_spaces = dict.fromkeys(SEATS, observation_space(rates.samples))
         self._distances = self._plant.distances(world)
-        self._reward = Reward(pace, rates.period, given.reward)
+        self._reward = Reward(pace, rates.period, earned)
         self._from_behind = self._plant.steers_from_behind
-        bodies = self._plant.bodies
-        self._perceive = Perception(world, bodies, rates.samples, self._from_behind)
+        self._perceive = Perception(world, self._plant.bodies, rates.samples, self._from_behind)
         self._sensor = ForceSensor(sensor, rates.sensor)
         self._generator = np.random.default_rng()
         self._step_count = 0
@@ -193,15 +188,7 @@ class CowalkEnv(WatchedEnv):
         self._info = {"clearance": clearance} | dict.fromkeys(_ENDS, False)
         return self._observations(), {seat: dict(self._info) for seat in SEATS}
 
-    def step(
-        self, actions: dict[str, Array]
-    ) -> tuple[
-        dict[str, Observation],
-        dict[str, float],
-        dict[str, bool],
-        dict[str, bool],
-        dict[str, dict[str, Any]],
-    ]:
+    def step(self, actions: dict[str, Array]) -> Stepped:
         """Advance one control period.
 
         Parameters
@@ -237,13 +224,8 @@ class CowalkEnv(WatchedEnv):
             self.agents = []
         if self._window_needed:
             self.render()
-        return (
-            observations,
-            rewards,
-            dict.fromkeys(SEATS, over),
-            dict.fromkeys(SEATS, late),
-            {seat: dict(self._info) for seat in SEATS},
-        )
+        ended, cut = dict.fromkeys(SEATS, over), dict.fromkeys(SEATS, late)
+        return observations, rewards, ended, cut, {seat: dict(self._info) for seat in SEATS}
 
     def close(self) -> None:
         """Free the plant. May be called twice."""
@@ -262,12 +244,5 @@ class CowalkEnv(WatchedEnv):
 
 
 def parallel_env(world: World = STRAIGHT_CORRIDOR, **arguments: Any) -> CowalkEnv:
-    """Return a `CowalkEnv`; without arguments, a straight corridor, sensor noise off.
-
-    Parameters
-    ----------
-    world : World
-    **arguments
-        See `CowalkEnv`.
-    """
+    """Return a `CowalkEnv` of its arguments; without any, a straight corridor, noise off."""
     return CowalkEnv(world, **arguments)
