@@ -6,7 +6,7 @@ PYTHON ?= $(shell for python in python3.11 python3.12 python3 python; do \
 	"$$python" -c 'import sys; sys.exit(not (3, 11) <= sys.version_info < (3, 13))' 2>/dev/null \
 	&& echo "$$python" && break; done)
 
-.PHONY: help run test lint types bench clean
+.PHONY: help run test lint types bench learn clean
 
 help:  ## Show the targets
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 8
@@ -41,6 +41,15 @@ types: .venv/develop  ## Check the types of what is shipped
 
 bench: .venv/run  ## Measure speed, as ratios within one run
 	$(BIN)/python -m benchmarks
+
+# Learning brings gigabytes that nothing else needs.
+.venv/learn: .venv/develop
+	$(PIP) --editable '.[learn]'
+	@touch $@
+
+learn: .venv/learn  ## Check the single seat with stable-baselines3, and let PPO learn one for 2,000 steps
+	$(BIN)/python -m pytest -m learn
+	$(BIN)/python docs/examples/learned-seat/ppo.py
 
 clean:  ## Remove everything that was made here
 	rm -rf .venv build dist runs *.egg-info .mypy_cache .pytest_cache .ruff_cache .hypothesis

@@ -1,13 +1,14 @@
 from .export.run_folder import write_run as write_run
 from .files.loading import load as load
-from .files.loading import scenario_library as scenario_library
 from .files.schema import Scenario as Scenario
+from .files.shipped import scenario_library as scenario_library
 from .people.population import load_population as load_population
 from .running.build import build_agents as build_agents
 from .running.build import make_env as make_env
 from .running.build import seeds_of as seeds_of
 from .running.build import situation_of as situation_of
 from .running.runner import run as run
+from .single_seat.environment import SingleSeatEnv as SingleSeatEnv
 from .trace.recorder import Recorder as Recorder
 from .trace.result import RunResult as RunResult
 from .trace.trace import Trace as Trace

@@ -6,15 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cowalk.sim.basics.lists import require_pairs
 from cowalk.sim.basics.situation import Situation
-from cowalk.sim.basics.validators import SHARE, Range, require_ranges
 
 from ..basics.elementwise import Elementwise, Value
-from .laws.demand import TIME, TOLERANCE, DemandingHuman, Pair
-
-BETA: Range = (1e-3, 1e3, "")
-"""From holding out to the last moment to conceding at once (inferred)."""
+from .laws.demand import DemandingHuman, Pair, require_positive, require_share
 
 
 @dataclass(kw_only=True)
@@ -56,9 +51,8 @@ class ConcedingHuman(DemandingHuman):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        require_pairs(self, {"initial": SHARE, "final": SHARE})
-        ranges = {"beta": BETA, "deadline": TIME, "tolerance": TOLERANCE}
-        require_ranges(self, ranges, lanes=True)
+        require_share(self, "initial", "final")
+        require_positive(self, "beta", "deadline", "tolerance")
 
     def reset(self, rng: np.random.Generator, situation: Situation) -> None:
         """See `Human.reset`."""

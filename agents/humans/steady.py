@@ -4,11 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from cowalk.sim.basics.lists import require_pairs
-from cowalk.sim.basics.validators import SHARE
-
 from ..basics.elementwise import Elementwise, Value
-from .laws.demand import DemandingHuman, Pair
+from .laws.demand import DemandingHuman, Pair, require_share
 
 
 @dataclass(kw_only=True)
@@ -34,7 +31,7 @@ class SteadyHuman(DemandingHuman):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        require_pairs(self, {"level": SHARE})
+        require_share(self, "level")
 
     def stubbornness(self, m: Elementwise, i: int, disagreement: Value) -> Value:
         """See `DemandingHuman.stubbornness`."""

@@ -14,7 +14,7 @@ from cowalk.sim.env.configuration import require_reachable
 from cowalk.sim.plant.protocol import Plant
 from cowalk.sim.world.contact import blocked_start
 
-from ..trace.columns import UNITS, all_columns
+from ..trace.columns import UNITS
 from .assembling import assemble, elsewhere, surroundings
 from .building import check_parameters
 from .documents import Document, Fault, KeyPath, dotted
@@ -40,9 +40,7 @@ def check(document: Document) -> tuple[Scenario | None, list[Fault]]:
     scenario, problems = validate(scenario_model(), data)
     problems += unknown
     known = {problem.path for problem in problems}
-    columns = dict(UNITS)
-    inner = _components(document.data, scenario, columns)
-    inner += _formulas(document.data, scenario, columns)
+    inner = (*_components(document.data, scenario), *_formulas(document.data, scenario))
     problems += [problem for problem in inner if problem.path not in known]
     problems += document.problems
     if scenario is not None:
@@ -78,13 +76,8 @@ def _with_preset(part: Part, data: dict[str, Any]) -> tuple[dict[str, Any], list
     return {**data, part.key: changed | given}, []
 
 
-def _components(
-    data: dict[str, Any], scenario: Scenario | None, columns: dict[str, str]
-) -> list[Fault]:
-    """Return the problems of all named parts; they are built if everything around is right.
-
-    What they add to the trace is added to ``columns``.
-    """
+def _components(data: dict[str, Any], scenario: Scenario | None) -> list[Fault]:
+    """Return the problems of all named parts; they are built if everything around is right."""
     problems: list[Fault] = []
     for part, _, path, value in sections(data):
         if part.preset:
@@ -102,10 +95,6 @@ def _components(
             made = assemble(part, component, around, part.section, problems)
             if part.kind == "plant" and made is not None:
                 problems += _start(scenario, made)
-            try:
-                columns |= all_columns(getattr(made, "columns", {}))
-            except InputError as error:
-                problems.append(Fault((*part.section, "name"), f"{dotted(part.section)}: {error}"))
     return problems
 
 
@@ -168,9 +157,7 @@ def _never_come(scenario: Scenario) -> list[Fault]:
     return found
 
 
-def _formulas(
-    data: dict[str, Any], scenario: Scenario | None, columns: dict[str, str]
-) -> list[Fault]:
+def _formulas(data: dict[str, Any], scenario: Scenario | None) -> list[Fault]:
     """Return the problems of all expectations."""
     expect = data.get("expect")
     if not isinstance(expect, dict) or not expect:
@@ -180,6 +167,6 @@ def _formulas(
     period = scenario.rates.period if scenario else None
     found: list[Fault] = []
     for name, formula in expect.items():
-        if isinstance(formula, str) and (reason := syntax_error(formula, columns, period)):
+        if isinstance(formula, str) and (reason := syntax_error(formula, UNITS, period)):
             found.append(Fault(("expect", name), f"expect.{name} = {formula!r}: {reason}"))
     return found

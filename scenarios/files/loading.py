@@ -6,7 +6,6 @@ import dataclasses
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from importlib.resources import files
 from pathlib import Path
 from typing import Any, Literal
 
@@ -20,7 +19,8 @@ from cowalk.sim.basics.registry import did_you_mean
 from .diagnosis import check
 from .documents import Document, KeyPath, dotted, knows_exponents, parse
 from .overrides import Change, Dropped, OverrideError, expand_names, override
-from .schema import SUFFIX, Scenario
+from .schema import Scenario
+from .shipped import scenario_library
 
 
 @dataclass(frozen=True)
@@ -45,12 +45,6 @@ class FileFault:
 
     def __str__(self) -> str:
         return f"{self.file}:{self.line}: {self.message}"
-
-
-def scenario_library() -> dict[str, Path]:
-    """Return the scenarios that ship: file by name."""
-    folder = Path(str(files("cowalk.scenarios.library")))
-    return {file.name.removesuffix(SUFFIX): file for file in sorted(folder.glob(f"*{SUFFIX}"))}
 
 
 def find(source: str | Path) -> Path:

@@ -21,9 +21,6 @@ from cowalk.sim.world.world import World
 
 from .parts import Part, kind_of_part, parts
 
-SUFFIX = ".scenario.yaml"
-"""How the name of a scenario file ends."""
-
 
 def _within(name: str) -> AfterValidator:
     """Return what refuses a number that no environment can be made with."""

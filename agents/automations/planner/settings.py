@@ -5,25 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from cowalk.sim.basics.errors import InputError
-from cowalk.sim.basics.lists import require_pairs
-from cowalk.sim.basics.validators import Range, require_choices, require_ranges
+import numpy as np
 
-RANGES: dict[str, Range] = {
-    "period": (1e-3, 3600.0, "s"),
-    "horizon": (1e-3, 1000.0, "s"),
-    "distance_weight": (1e-6, 1e6, "1/m^2"),
-    "speed_weight": (0.0, 1e6, "s^2/m^2"),
-    "turn_weight": (0.0, 1e6, "s^2/rad^2"),
-    "force_window": (0.0, 3600.0, "s"),
-}
-RANGES_OF_PAIRS: dict[str, Range] = {
-    "force_max": (1e-3, 1e4, "N"),
-    "force_threshold": (0.0, 1e4, "N"),
-    "sensitivity": (0.0, 100.0, ""),
-}
-"""What two can negotiate with, and far more (inferred)."""
-DIMENSIONS = ("omega", "both")
+from cowalk.sim.basics.errors import InputError
 
 
 @dataclass(frozen=True)
@@ -57,7 +41,7 @@ class NegotiationSettings:
     Raises
     ------
     InputError
-        If a value is outside of `RANGES` or `RANGES_OF_PAIRS`, or the dimensions are unknown.
+        If a value is out of its range.
     """
 
     dimensions: Literal["omega", "both"] = "omega"
@@ -72,9 +56,15 @@ class NegotiationSettings:
     sensitivity: tuple[float, float] = (0.5, 0.5)
 
     def __post_init__(self) -> None:
-        require_choices(self, {"dimensions": DIMENSIONS})
-        require_ranges(self, RANGES, lanes=True)
-        require_pairs(self, RANGES_OF_PAIRS, axis=-1)
+        for names, holds, what in (
+            (("period", "horizon", "distance_weight", "force_max"), np.greater, "above 0"),
+            (("speed_weight", "turn_weight", "force_window"), np.greater_equal, "at least 0"),
+            (("force_threshold", "sensitivity"), np.greater_equal, "at least 0"),
+        ):
+            for name in names:
+                value = getattr(self, name)
+                if not np.all(holds(value, 0.0)):
+                    raise InputError(f"{name} = {value}: must be {what}")
 
     def steps(self, control_period: float) -> int:
         """Return the number of control steps between negotiations.
@@ -89,7 +79,6 @@ class NegotiationSettings:
             raise InputError(
                 f"automation.negotiation.period = {self.period} s is not a whole multiple of the "
                 f"control period {control_period:g} s; "
-                f"{max(1, round(ratio)) * control_period:g} would be",
-                ("automation", "negotiation", "period"),
+                f"{max(1, round(ratio)) * control_period:g} would be"
             )
         return round(ratio)

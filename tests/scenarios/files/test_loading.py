@@ -2,7 +2,8 @@ import re
 
 import pytest
 
-from cowalk.scenarios.files.loading import faults, load, scenario_library, to_yaml
+from cowalk.scenarios.files.loading import faults, load, to_yaml
+from cowalk.scenarios.files.shipped import scenario_library
 from cowalk.sim.basics.errors import InputError
 
 
@@ -91,7 +92,7 @@ pace: 1
         (19, "automation.smoother.parameters.process_noise"),
         (20, "automation.negotiation.dimensions"),
         (20, "automation.negotiation.sensitivity.1"),
-        (21, "bounds.upper"),
+        (21, "bounds"),
         (23, "expect.a number"),
         (24, "expect.not closed"),
         (25, "expect.unknown column"),
@@ -231,8 +232,8 @@ def test_what_only_the_plant_can_judge_is_found_at_its_line(scenario_file, plant
         ("duration: 3.0", "duration: 0", "duration = 0.0 s: must lie between 0.01 and 86400 s"),
         ("name: steady", "name: steady\n  parameters: {level: 2}", "a list of 2 is expected"),
         ("[[0.0, 0.0], [30.0, 0.0]]", "[[0, 0], 3]", "points.1 = 3: a list of 2 is expected"),
-        ("[[0.0, 0.0], [30.0, 0.0]]", "[[0, 0]]", "a path needs at least two points (x, y)"),
-        ("duration: 3.0", "rates: {control: 0}", "rates.control = 0 Hz: must lie between 1 and"),
+        ("[[0.0, 0.0], [30.0, 0.0]]", "[[0, 0]]", "at least two points (x, y), not 1"),
+        ("duration: 3.0", "rates: {control: 0}", "rates.control = 0 Hz: it must be above 0"),
         ("duration: 3.0", "durations: 3.0", "durations: unknown key; did you mean 'duration'? K"),
         ("duration: 3.0", "zzz: 3.0", "zzz: unknown key; known: name, description"),
     ],
@@ -358,7 +359,7 @@ def test_a_swapped_part_keeps_its_section_but_not_its_parameters(scenario_file):
         ("human.parameters.gain=nan", "a number is expected, not text"),
         (
             "human.intention.changes=[{pace: -1}]",
-            "pace = -1.0 m/s: must lie between 0 and 5 m/s, or be left out; give either at_time",
+            "give either at_time (s) or at_station (m); pace = -1.0: must not be negative",
         ),
         ("human.parameters.gain=true", "not true or false"),
         ("human=foo", "unknown human 'foo'; known: bounded-memory, conceding"),

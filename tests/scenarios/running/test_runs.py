@@ -11,7 +11,7 @@ import pytest
 from cowalk.agents import AUTOMATIONS, HUMANS
 from cowalk.estimation.registry import SMOOTHERS
 from cowalk.scenarios import load, make_env, run, write_run
-from cowalk.scenarios.files.loading import scenario_library
+from cowalk.scenarios.files.shipped import scenario_library
 from cowalk.scenarios.trace.columns import UNITS
 from cowalk.scenarios.trace.trace import Trace
 from cowalk.sim.basics.errors import InputError
