@@ -73,7 +73,7 @@ class GaitRipple(Imperfection):
         if plant == "bullet":
             return (
                 "gait-ripple is for the unicycle plant; on 'bullet' the body makes it: leave it "
-                'out, and draw people with plant="bullet" (humans sample --plant bullet)'
+                'out, and draw people with plant="bullet"'
             )
         return None
 
