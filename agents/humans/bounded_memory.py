@@ -8,10 +8,14 @@ import numpy as np
 
 from cowalk.sim.basics.observation import Observation
 from cowalk.sim.basics.situation import Situation
+from cowalk.sim.basics.validators import SHARE, require_ranges, require_whole
 
 from ..basics.elementwise import FLOATS, Elementwise, Value
 from .intention.intention import Outlook
-from .laws.demand import DemandingHuman, require, require_positive, require_share
+from .laws.demand import TIME, TOLERANCE, DemandingHuman
+
+MOST_TURNS = 1000
+"""Of memory (inferred)."""
 
 
 @dataclass(kw_only=True)
@@ -51,9 +55,9 @@ class BoundedMemoryHuman(DemandingHuman):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        require_share(self, "adaptability")
-        require(self, "memory", self.memory >= 1, "must be at least 1 turn")
-        require_positive(self, "turn", "tolerance")
+        require_ranges(self, {"adaptability": SHARE, "tolerance": TOLERANCE}, lanes=True)
+        require_ranges(self, {"turn": TIME})
+        require_whole("memory", self.memory, 1, MOST_TURNS)
 
     def reset(self, rng: np.random.Generator, situation: Situation) -> None:
         """See `Human.reset`."""

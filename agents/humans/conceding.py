@@ -6,10 +6,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cowalk.sim.basics.lists import require_pairs
 from cowalk.sim.basics.situation import Situation
+from cowalk.sim.basics.validators import SHARE, Range, require_ranges
 
 from ..basics.elementwise import Elementwise, Value
-from .laws.demand import DemandingHuman, Pair, require_positive, require_share
+from .laws.demand import TIME, TOLERANCE, DemandingHuman, Pair
+
+BETA: Range = (1e-3, 1e3, "")
+"""From holding out to the last moment to conceding at once (inferred)."""
 
 
 @dataclass(kw_only=True)
@@ -51,8 +56,9 @@ class ConcedingHuman(DemandingHuman):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        require_share(self, "initial", "final")
-        require_positive(self, "beta", "deadline", "tolerance")
+        require_pairs(self, {"initial": SHARE, "final": SHARE})
+        ranges = {"beta": BETA, "deadline": TIME, "tolerance": TOLERANCE}
+        require_ranges(self, ranges, lanes=True)
 
     def reset(self, rng: np.random.Generator, situation: Situation) -> None:
         """See `Human.reset`."""

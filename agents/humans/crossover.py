@@ -9,11 +9,16 @@ import numpy as np
 
 from cowalk.sim.basics.observation import Observation
 from cowalk.sim.basics.situation import Situation
+from cowalk.sim.basics.validators import Range, require_ranges
 
 from ..basics.elementwise import Value
 from .intention.intention import Outlook
-from .laws.demand import require, require_positive
+from .laws.demand import STEERING
 from .laws.linear import LinearHuman
+
+FREQUENCY: Range = (1e-3, 100.0, "rad/s")
+DELAY: Range = (0.0, 5.0, "s")
+"""Faster than any hand, and slower than any reaction (inferred)."""
 
 
 @dataclass(kw_only=True)
@@ -57,8 +62,8 @@ class CrossoverHuman(LinearHuman):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        require_positive(self, "crossover_frequency", "steering")
-        require(self, "delay", self.delay >= 0.0, "must not be negative")
+        require_ranges(self, {"crossover_frequency": FREQUENCY, "steering": STEERING}, lanes=True)
+        require_ranges(self, {"delay": DELAY})
 
     def reset(self, rng: np.random.Generator, situation: Situation) -> None:
         """See `Human.reset`."""

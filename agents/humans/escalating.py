@@ -7,10 +7,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cowalk.sim.basics.lists import require_pairs
 from cowalk.sim.basics.situation import Situation
+from cowalk.sim.basics.validators import SHARE, Range, require, require_ranges
 
 from ..basics.elementwise import Elementwise, Value
-from .laws.demand import DemandingHuman, Pair, require, require_positive, require_share
+from .laws.demand import TIME, TOLERANCE, DemandingHuman, Pair
+
+LEAST = 1e-3
+"""Stubbornness that grows within a walk (inferred)."""
+GROWTH: Range = (0.0, 100.0, "")
+HOLD: Range = (0.0, 86400.0, "s")
+"""A hundredfold a turn, and a day (inferred)."""
 
 
 @dataclass(kw_only=True)
@@ -61,12 +69,11 @@ class EscalatingHuman(DemandingHuman):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        require_share(self, "initial")
-        grows = min(map(np.min, self.initial)) > 0.0
-        require(self, "initial", grows, "must be above 0, since what is 0 never grows; try 0.01")
-        require_positive(self, "turn", "relaxation", "tolerance")
-        for name in ("growth", "hold"):
-            require(self, name, getattr(self, name) >= 0.0, "must not be negative")
+        require_pairs(self, {"initial": SHARE})
+        what = f"must be {LEAST:g} or more, since what is 0 never grows; try 0.01"
+        require(min(map(np.min, self.initial)) >= LEAST, "initial", self.initial, what)
+        require_ranges(self, {"growth": GROWTH, "turn": TIME, "relaxation": TIME})
+        require_ranges(self, {"hold": HOLD, "tolerance": TOLERANCE}, lanes=True)
 
     def reset(self, rng: np.random.Generator, situation: Situation) -> None:
         """See `Human.reset`."""

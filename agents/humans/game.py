@@ -6,16 +6,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cowalk.sim.basics.lists import require_pairs
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
 from cowalk.sim.basics.situation import Situation
+from cowalk.sim.basics.validators import Range, require_ranges
 
 from ..basics.elementwise import Elementwise, Value, elementwise
 from .intention.intention import Outlook
-from .laws.demand import Pair, require, require_positive
+from .laws.demand import REACH, STEERING, Pair
 from .laws.linear import LinearHuman
 from .laws.lq_game import Gains, best_answer, nash_equilibrium
 
+WEIGHT: Range = (1e-3, 1e3, "")
+OBSERVER_RATE: Range = (0.0, 100.0, "1/s")
+"""All that matters is how the weights compare (inferred)."""
 _QUIET = 0.1
 """Squared error, in upper bounds, below which the observer learns little."""
 _LARGEST_GAIN = 5.0
@@ -67,11 +72,10 @@ class GameHuman(LinearHuman):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        require_positive(
-            self, "error_weights", "effort_weight", "partner_effort_weight", "steering"
-        )
-        require(self, "observer_rate", self.observer_rate >= 0.0, "must not be negative")
-        require(self, "reach", self.reach >= 0.0, "must not be negative")
+        require_pairs(self, {"error_weights": WEIGHT})
+        weights = {"effort_weight": WEIGHT, "partner_effort_weight": WEIGHT}
+        ranges = {"observer_rate": OBSERVER_RATE, "steering": STEERING, "reach": REACH}
+        require_ranges(self, weights | ranges)
         first, second = self.error_weights
         efforts = self.effort_weight, self.partner_effort_weight
         self._equilibrium = nash_equilibrium((first, second), efforts, self.steering)

@@ -8,12 +8,18 @@ import numpy as np
 
 from cowalk.sim.basics.observation import Observation
 from cowalk.sim.basics.situation import Situation
+from cowalk.sim.basics.validators import Range, require_ranges
 
 from ..basics.elementwise import Value
 from .intention.intention import Outlook
 from .intention.minimum_jerk import Movement
-from .laws.demand import require, require_positive
+from .laws.demand import REACH, TIME
 from .laws.linear import LinearHuman
+
+STIFFNESS: Range = (0.0, 1e5, "N/m")
+DAMPING: Range = (0.01, 1e5, "N s/m")
+LEVER: Range = (0.01, 100.0, "m")
+"""From a hand that gives way to one cast in concrete (inferred)."""
 
 
 @dataclass(kw_only=True)
@@ -57,9 +63,8 @@ class ImpedanceHuman(LinearHuman):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        require_positive(self, "damping", "duration", "lever")
-        require(self, "stiffness", self.stiffness >= 0.0, "must not be negative")
-        require(self, "reach", self.reach >= 0.0, "must not be negative")
+        ranges = {"stiffness": STIFFNESS, "damping": DAMPING, "lever": LEVER}
+        require_ranges(self, ranges | {"duration": TIME, "reach": REACH}, lanes=True)
 
     def reset(self, rng: np.random.Generator, situation: Situation) -> None:
         """See `Human.reset`."""

@@ -7,12 +7,18 @@ from typing import ClassVar
 
 import numpy as np
 
+from cowalk.sim.basics.lists import require_pairs, require_rows
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
 from cowalk.sim.basics.situation import Situation
+from cowalk.sim.basics.validators import Range, require, require_ranges
 
 from ..basics.protocols import Truth
-from .laws.demand import Pair, prescribed_truth, require, require_positive
+from .laws.demand import FORCE_MAX, GAIN, Pair, prescribed_truth
+
+SINCE: Range = (0.0, 86400.0, "s")
+PUSH: Range = (-1e4, 1e4, "N")
+"""Of a profile: more than any hand gives (inferred)."""
 
 
 @dataclass(kw_only=True)
@@ -34,7 +40,8 @@ class OpenLoopHuman:
     Raises
     ------
     InputError
-        If the times do not rise, or ``force_max`` or ``gain`` is not above 0.
+        If the times do not rise, or a number is outside of `SINCE`, `PUSH` or the ranges of the
+        common definition.
     """
 
     closed_loop: ClassVar[bool] = False
@@ -44,10 +51,14 @@ class OpenLoopHuman:
     gain: float = 2.0
 
     def __post_init__(self) -> None:
-        require_positive(self, "force_max", "gain")
-        table = np.asarray(self.profile, dtype=float).reshape(-1, 3)
+        require_pairs(self, {"force_max": FORCE_MAX})
+        require_ranges(self, {"gain": GAIN}, lanes=True)
+        what = "a list of (time, fx, fy) is expected"
+        require_rows(self, "profile", (SINCE, PUSH, PUSH), 1, what)
+        table = np.asarray(self.profile, dtype=float)
         rising = bool(np.all(np.diff(table[:, 0]) > 0.0))
-        require(self, "profile", rising, "each time must be later than the one before")
+        what = "each time must be later than the one before"
+        require(rising, "profile", self.profile, what)
         self._times = table[:, 0]
         self._forces = np.vstack(([0.0, 0.0], table[:, 1:]))
 

@@ -6,10 +6,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cowalk.sim.basics.lists import require_pairs
 from cowalk.sim.basics.situation import Situation
+from cowalk.sim.basics.validators import SHARE, Range, require_ranges
 
 from ..basics.elementwise import Elementwise, Value
-from .laws.demand import DemandingHuman, Pair, require, require_positive, require_share
+from .laws.demand import TIME, DemandingHuman, Pair
+
+FORGETTING: Range = (0.0, 0.9999, "")
+"""Whoever kept all of it would never stop (inferred)."""
+LEARNING: Range = (0.0, 100.0, "")
+"""At 1 already, a turn is enough (inferred)."""
 
 
 @dataclass(kw_only=True)
@@ -52,10 +59,9 @@ class SlackingHuman(DemandingHuman):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        require(self, "forgetting", 0.0 <= self.forgetting < 1.0, "must lie in [0, 1)")
-        require(self, "learning", self.learning >= 0.0, "must not be negative")
-        require_positive(self, "turn")
-        require_share(self, "initial")
+        ranges = {"forgetting": FORGETTING, "learning": LEARNING, "turn": TIME}
+        require_ranges(self, ranges, lanes=True)
+        require_pairs(self, {"initial": SHARE})
 
     def reset(self, rng: np.random.Generator, situation: Situation) -> None:
         """See `Human.reset`."""

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from cowalk.sim.basics.lists import require_pairs
+from cowalk.sim.basics.validators import SHARE
+
 from ..basics.elementwise import Elementwise, Value
-from .laws.demand import DemandingHuman, Pair, require_share
+from .laws.demand import DemandingHuman, Pair
 
 
 @dataclass(kw_only=True)
@@ -31,7 +34,7 @@ class SteadyHuman(DemandingHuman):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        require_share(self, "level")
+        require_pairs(self, {"level": SHARE})
 
     def stubbornness(self, m: Elementwise, i: int, disagreement: Value) -> Value:
         """See `DemandingHuman.stubbornness`."""

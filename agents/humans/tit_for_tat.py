@@ -6,12 +6,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from cowalk.sim.basics.lists import require_pairs
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
 from cowalk.sim.basics.situation import Situation
+from cowalk.sim.basics.validators import Range, require_ranges
 
 from ..basics.elementwise import Elementwise, Value, components
-from .laws.demand import DemandingHuman, Pair, require_positive, require_share
+from .laws.demand import TOLERANCE, DemandingHuman, Pair
+
+INITIAL: Range = (1e-3, 1.0, "")
+"""Of nothing there is nothing to give in kind (inferred)."""
 
 
 @dataclass(kw_only=True)
@@ -50,8 +55,8 @@ class TitForTatHuman(DemandingHuman):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        require_share(self, "initial")
-        require_positive(self, "initial", "tolerance")
+        require_pairs(self, {"initial": INITIAL})
+        require_ranges(self, {"tolerance": TOLERANCE}, lanes=True)
 
     def reset(self, rng: np.random.Generator, situation: Situation) -> None:
         """See `Human.reset`."""

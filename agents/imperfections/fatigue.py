@@ -11,9 +11,9 @@ import numpy as np
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
 from cowalk.sim.basics.situation import Situation
+from cowalk.sim.basics.validators import Range, require_choices, require_ranges
 
 from ..basics.elementwise import Value, elementwise
-from ..humans.laws.demand import require
 from .wrapper import Imperfection
 
 RATES = {
@@ -22,6 +22,8 @@ RATES = {
     "grip": (0.0098, 0.00064),
 }
 """Fatigue rate F and recovery rate R in 1/s (Frey-Law, Looft and Heitsman 2012)."""
+STRENGTH: Range = (1e-3, 1e4, "N")
+"""Inferred."""
 
 
 @dataclass
@@ -51,7 +53,7 @@ class Fatigue(Imperfection):
     Raises
     ------
     InputError
-        If the strength is not above 0.
+        If the muscle is unknown or the strength outside of `STRENGTH`.
     """
 
     demonstration: ClassVar[tuple[float, float]] = (240.0, 30.0)
@@ -60,8 +62,9 @@ class Fatigue(Imperfection):
     strength: float = 60.0
 
     def __post_init__(self) -> None:
-        require(self, "muscle", self.muscle in RATES, f"must be one of {', '.join(RATES)}")
-        require(self, "strength", self.strength > 0.0, "must be above 0 N")
+        super().__post_init__()
+        require_choices(self, {"muscle": RATES})
+        require_ranges(self, {"strength": STRENGTH}, lanes=True)
 
     def reset(self, rng: np.random.Generator, situation: Situation) -> None:
         """See `Human.reset`."""

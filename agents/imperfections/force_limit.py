@@ -7,10 +7,13 @@ from typing import ClassVar
 
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
+from cowalk.sim.basics.validators import Range, require_ranges
 
 from ..basics.elementwise import elementwise
-from ..humans.laws.demand import require
 from .wrapper import Imperfection
+
+LIMIT: Range = (1e-3, 1e4, "N")
+"""Inferred."""
 
 
 @dataclass
@@ -27,7 +30,7 @@ class ForceLimit(Imperfection):
     Raises
     ------
     InputError
-        If the limit is not above 0.
+        If the limit is outside of `LIMIT`.
     """
 
     demonstration: ClassVar[tuple[float, float]] = (8.0, 45.0)
@@ -35,7 +38,8 @@ class ForceLimit(Imperfection):
     limit: float = 30.0
 
     def __post_init__(self) -> None:
-        require(self, "limit", self.limit > 0.0, "must be above 0 N")
+        super().__post_init__()
+        require_ranges(self, {"limit": LIMIT}, lanes=True)
 
     def distort(self, force: Array, observation: Observation) -> Array:
         """See `Imperfection.distort`."""

@@ -10,10 +10,19 @@ import numpy as np
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
 from cowalk.sim.basics.situation import Situation
+from cowalk.sim.basics.validators import Range, require_ranges
 
 from ..basics.elementwise import Value, elementwise
-from ..humans.laws.demand import require
 from .wrapper import Imperfection
+
+RANGES: dict[str, Range] = {
+    "step_frequency": (0.01, 4.0, "Hz"),
+    "lateral_sway": (0.0, 1.0, "m"),
+    "fore_aft_sway": (0.0, 1.0, "m"),
+    "arm_stiffness": (0.0, 1e5, "N/m"),
+    "walking_speed": (0.01, 5.0, "m/s"),
+}
+"""What walking people can do, and more (inferred)."""
 
 
 @dataclass
@@ -46,7 +55,7 @@ class GaitRipple(Imperfection):
     Raises
     ------
     InputError
-        If a sway or the stiffness is negative, or the frequency is not in (0, 4] Hz.
+        If a number is outside of `RANGES`.
     """
 
     demonstration: ClassVar[tuple[float, float]] = (5.0, 10.0)
@@ -63,10 +72,8 @@ class GaitRipple(Imperfection):
         return True
 
     def __post_init__(self) -> None:
-        for name in ("lateral_sway", "fore_aft_sway", "arm_stiffness"):
-            require(self, name, getattr(self, name) >= 0.0, "must not be negative")
-        require(self, "step_frequency", 0.0 < self.step_frequency <= 4.0, "must lie in (0, 4] Hz")
-        require(self, "walking_speed", self.walking_speed > 0.0, "must be above 0 m/s")
+        super().__post_init__()
+        require_ranges(self, RANGES, lanes=True)
 
     def unsuited(self, plant: str, period: float) -> str | None:
         """See `Imperfection.unsuited`."""

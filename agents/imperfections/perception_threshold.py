@@ -9,10 +9,13 @@ import numpy as np
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
 from cowalk.sim.basics.situation import Situation
+from cowalk.sim.basics.validators import Range, require_ranges
 
 from ..basics.elementwise import Elementwise, Value, elementwise
-from ..humans.laws.demand import require
 from .wrapper import Imperfection
+
+RANGES: dict[str, Range] = {"weber": (0.0, 0.99, ""), "threshold": (0.0, 1e3, "N")}
+"""At a fraction of 1, hardly anything would ever be felt (inferred)."""
 
 
 @dataclass
@@ -40,15 +43,15 @@ class PerceptionThreshold(Imperfection):
     Raises
     ------
     InputError
-        If the fraction is not in [0, 1) or the threshold is negative.
+        If a number is outside of `RANGES`.
     """
 
     weber: float = 0.1
     threshold: float = 0.04
 
     def __post_init__(self) -> None:
-        require(self, "weber", 0.0 <= self.weber < 1.0, "must lie in [0, 1)")
-        require(self, "threshold", self.threshold >= 0.0, "must not be negative")
+        super().__post_init__()
+        require_ranges(self, RANGES, lanes=True)
 
     def reset(self, rng: np.random.Generator, situation: Situation) -> None:
         """See `Human.reset`."""

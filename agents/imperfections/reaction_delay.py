@@ -10,9 +10,12 @@ import numpy as np
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
 from cowalk.sim.basics.situation import Situation
+from cowalk.sim.basics.validators import Range, require_ranges
 
-from ..humans.laws.demand import require
 from .wrapper import Imperfection
+
+DELAY: Range = (0.0, 5.0, "s")
+"""Inferred."""
 
 
 @dataclass
@@ -39,7 +42,8 @@ class ReactionDelay(Imperfection):
     delay: float = 0.2
 
     def __post_init__(self) -> None:
-        require(self, "delay", 0.0 <= self.delay <= 5.0, "must lie in [0, 5] s")
+        super().__post_init__()
+        require_ranges(self, {"delay": DELAY})
 
     def reset(self, rng: np.random.Generator, situation: Situation) -> None:
         """See `Human.reset`."""

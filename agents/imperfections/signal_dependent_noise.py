@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
+from cowalk.sim.basics.validators import SHARE, require_ranges
 
-from ..humans.laws.demand import require
 from .wrapper import Imperfection
 
 
@@ -33,7 +33,8 @@ class SignalDependentNoise(Imperfection):
     share: float = 0.03
 
     def __post_init__(self) -> None:
-        require(self, "share", 0.0 <= self.share <= 1.0, "must lie in [0, 1]")
+        super().__post_init__()
+        require_ranges(self, {"share": SHARE}, lanes=True)
 
     def distort(self, force: Array, observation: Observation) -> Array:
         """See `Imperfection.distort`."""

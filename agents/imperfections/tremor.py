@@ -10,10 +10,13 @@ from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
 from cowalk.sim.basics.situation import Situation
+from cowalk.sim.basics.validators import SHARE, Range, require_ranges
 
 from ..basics.elementwise import Value, elementwise
-from ..humans.laws.demand import require
 from .wrapper import Imperfection
+
+FREQUENCY: Range = (1.0, 30.0, "Hz")
+"""Inferred."""
 
 
 @dataclass
@@ -49,8 +52,8 @@ class Tremor(Imperfection):
     frequency: float = 9.0
 
     def __post_init__(self) -> None:
-        require(self, "share", 0.0 <= self.share <= 1.0, "must lie in [0, 1]")
-        require(self, "frequency", 1.0 <= self.frequency <= 30.0, "must lie in [1, 30] Hz")
+        super().__post_init__()
+        require_ranges(self, {"share": SHARE, "frequency": FREQUENCY})
 
     def unsuited(self, plant: str, period: float) -> str | None:
         """See `Imperfection.unsuited`."""

@@ -11,6 +11,7 @@ import numpy as np
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
 from cowalk.sim.basics.situation import Situation
+from cowalk.sim.basics.validators import require_part
 
 from ..basics.protocols import Human, Truth
 
@@ -33,11 +34,19 @@ class Imperfection(ABC):
     ----------
     demonstration : (float, float)
         Duration in s and force in N that show this imperfection well, for figures.
+
+    Raises
+    ------
+    InputError
+        If the human inside is none.
     """
 
     demonstration: ClassVar[tuple[float, float]] = (8.0, 10.0)
 
     human: Human
+
+    def __post_init__(self) -> None:
+        require_part("human", self.human, "a human", ("reset", "act", "truth"))
 
     @property
     def closed_loop(self) -> bool:

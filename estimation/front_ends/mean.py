@@ -6,12 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.rates import Rates
+from cowalk.sim.basics.validators import Range, require_ranges
 
 STRIDE = 1.4
 """Two steps at 0.8 m/s, s: a mean over it takes out the sway of a walking human."""
+WINDOW: Range = (1e-6, 3600.0, "s")
+"""From a single sample to an hour (inferred)."""
 
 
 def mean_force(force: Array, valid: Array | None = None) -> Array:
@@ -47,14 +49,13 @@ class SlidingMean:
     Raises
     ------
     InputError
-        If the window is not above 0 and finite.
+        If the window is outside of `WINDOW`.
     """
 
     window: float = STRIDE
 
     def __post_init__(self) -> None:
-        if not 0.0 < self.window < np.inf:
-            raise InputError(f"window = {self.window} s: must be above 0", ("window",))
+        require_ranges(self, {"window": WINDOW})
 
     @property
     def delay(self) -> float:

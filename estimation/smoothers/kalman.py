@@ -7,8 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.motion import Array
+from cowalk.sim.basics.validators import Range, require_ranges
+
+NOISE: Range = (1e-6, 1e6, "")
+"""What rounding leaves of a filter beyond that is nothing (inferred)."""
 
 
 @dataclass
@@ -24,17 +27,18 @@ class KalmanSmoother:
         Standard deviation of the acceleration, units of the value per squared negotiation.
     measurement_noise : float
         Standard deviation of one value, units of the value.
+
+    Raises
+    ------
+    InputError
+        If one is outside of `NOISE`.
     """
 
     process_noise: float = 0.05
     measurement_noise: float = 0.3
 
     def __post_init__(self) -> None:
-        for name in ("process_noise", "measurement_noise"):
-            if not getattr(self, name) > 0.0:
-                raise InputError(
-                    f"{name} = {getattr(self, name)}: a Kalman filter needs it above 0"
-                )
+        require_ranges(self, {"process_noise": NOISE, "measurement_noise": NOISE})
 
     def reset(self, initial: ArrayLike) -> None:
         """See `Smoother.reset`."""

@@ -8,8 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.motion import Array
+from cowalk.sim.basics.validators import require_whole
+
+LONGEST = 100_000
+"""Values in a mean: a day of negotiations (inferred)."""
 
 
 @dataclass
@@ -20,13 +23,17 @@ class MovingAverage:
     ----------
     window : int
         Number of values l in the mean.
+
+    Raises
+    ------
+    InputError
+        If it is no whole number from 1 to `LONGEST`.
     """
 
     window: int = 5
 
     def __post_init__(self) -> None:
-        if self.window < 1:
-            raise InputError(f"window = {self.window}: a moving average needs at least 1 value")
+        require_whole("window", self.window, 1, LONGEST)
 
     def reset(self, initial: ArrayLike) -> None:
         """See `Smoother.reset`."""

@@ -98,6 +98,9 @@ def run(
     no_figure: Annotated[
         bool, typer.Option("--no-figure", help="Draw no picture: a run is then over sooner.")
     ] = False,
+    samples: Annotated[
+        bool, typer.Option("--samples", help="Keep every force sample too, in samples.parquet.")
+    ] = False,
     as_json: Json = False,
 ) -> int:
     """Run a scenario, keep what it gave, judge it."""
@@ -119,7 +122,7 @@ def run(
     # What a user's class prints must not end up in the JSON.
     label = f"filming {loaded.name}" if video is not None else loaded.name
     with progress_bar(label) as progress, redirect_stdout(sys.stderr):
-        result = run_scenario(loaded, progress, watching, gui)
+        result = run_scenario(loaded, progress, watching, gui, samples)
     write_run(result, folder, figure=False)
     written = {"video": video, "rerun": rerun}
     files = {what: str(file) for what, file in written.items() if file is not None}

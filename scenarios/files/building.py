@@ -221,9 +221,6 @@ def _constructor_problem(error: Exception, component: Component, at: KeyPath) ->
     """Return why a constructor refused, at the parameter that it blames."""
     place: KeyPath = (*at, "parameters")
     if isinstance(error, InputError):
-        if not error.at:  # TEMPORARY, until every constructor gives the place
-            steps = str(error).partition(" ")[0].rstrip(":,").split(".")
-            error = InputError(str(error), tuple(steps) if steps[0] in component.parameters else ())
         refused = error.inside(*place)
         return Fault(refused.at, str(refused))
     if isinstance(error, ValueError):

@@ -14,7 +14,7 @@ from cowalk.sim.env.configuration import require_reachable
 from cowalk.sim.plant.protocol import Plant
 from cowalk.sim.world.contact import blocked_start
 
-from ..trace.columns import UNITS
+from ..trace.columns import UNITS, all_columns
 from .assembling import assemble, elsewhere, surroundings
 from .building import check_parameters
 from .documents import Document, Fault, KeyPath, dotted
@@ -40,7 +40,9 @@ def check(document: Document) -> tuple[Scenario | None, list[Fault]]:
     scenario, problems = validate(scenario_model(), data)
     problems += unknown
     known = {problem.path for problem in problems}
-    inner = (*_components(document.data, scenario), *_formulas(document.data, scenario))
+    columns = dict(UNITS)
+    inner = _components(document.data, scenario, columns)
+    inner += _formulas(document.data, scenario, columns)
     problems += [problem for problem in inner if problem.path not in known]
     problems += document.problems
     if scenario is not None:
@@ -76,8 +78,13 @@ def _with_preset(part: Part, data: dict[str, Any]) -> tuple[dict[str, Any], list
     return {**data, part.key: changed | given}, []
 
 
-def _components(data: dict[str, Any], scenario: Scenario | None) -> list[Fault]:
-    """Return the problems of all named parts; they are built if everything around is right."""
+def _components(
+    data: dict[str, Any], scenario: Scenario | None, columns: dict[str, str]
+) -> list[Fault]:
+    """Return the problems of all named parts; they are built if everything around is right.
+
+    What they add to the trace is added to ``columns``.
+    """
     problems: list[Fault] = []
     for part, _, path, value in sections(data):
         if part.preset:
@@ -95,6 +102,10 @@ def _components(data: dict[str, Any], scenario: Scenario | None) -> list[Fault]:
             made = assemble(part, component, around, part.section, problems)
             if part.kind == "plant" and made is not None:
                 problems += _start(scenario, made)
+            try:
+                columns |= all_columns(getattr(made, "columns", {}))
+            except InputError as error:
+                problems.append(Fault((*part.section, "name"), f"{dotted(part.section)}: {error}"))
     return problems
 
 
@@ -157,7 +168,9 @@ def _never_come(scenario: Scenario) -> list[Fault]:
     return found
 
 
-def _formulas(data: dict[str, Any], scenario: Scenario | None) -> list[Fault]:
+def _formulas(
+    data: dict[str, Any], scenario: Scenario | None, columns: dict[str, str]
+) -> list[Fault]:
     """Return the problems of all expectations."""
     expect = data.get("expect")
     if not isinstance(expect, dict) or not expect:
@@ -167,6 +180,6 @@ def _formulas(data: dict[str, Any], scenario: Scenario | None) -> list[Fault]:
     period = scenario.rates.period if scenario else None
     found: list[Fault] = []
     for name, formula in expect.items():
-        if isinstance(formula, str) and (reason := syntax_error(formula, UNITS, period)):
+        if isinstance(formula, str) and (reason := syntax_error(formula, columns, period)):
             found.append(Fault(("expect", name), f"expect.{name} = {formula!r}: {reason}"))
     return found

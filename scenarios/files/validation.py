@@ -21,6 +21,8 @@ from .documents import Fault, KeyPath, dotted, not_plain
 
 M = TypeVar("M", bound=BaseModel)
 
+RENAMED: dict[str, str] = {}
+"""Keys of scenario files of earlier versions that have another name now, dotted."""
 _NOUNS = {
     "float_type": "a number",
     "int_type": "a whole number",
@@ -100,6 +102,8 @@ def _message(details: ErrorDetails, path: KeyPath, at: KeyPath, model: type[Base
         too_short = ": the list is too short" if isinstance(path[-1], int) else ""
         return f"{key or 'the entry'} is missing{too_short}"
     if kind in ("extra_forbidden", "unexpected_keyword_argument"):
+        if key in RENAMED:
+            return f"{key} is called {RENAMED[key]} now"
         known = known_keys(model, path[:-1])
         hint = did_you_mean(str(path[-1]), known) if known else "nothing can be set here"
         return f"{key}: unknown key; {hint}"
@@ -115,12 +119,6 @@ def _refusal(details: ErrorDetails, path: KeyPath, at: KeyPath) -> Fault | None:
         return None
     said = details["ctx"]["error"]
     error = said if isinstance(said, InputError) else InputError(str(said))
-    if not error.at:  # TEMPORARY, until every constructor gives the place
-        first = str(error).partition(" ")[0].rstrip(":,")
-        if isinstance(details["input"], dict) and first in details["input"]:
-            error = InputError(str(error), (first,))
-        elif path and first == dotted((*at, *path)):
-            error = InputError(str(error), (path[-1],))
     if error.at and path[-len(error.at) :] == error.at and not isinstance(details["input"], dict):
         path = path[: -len(error.at)]  # who judges a single value names it
     place = (*at, *path)

@@ -11,6 +11,7 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
+from cowalk.agents.humans.open_loop import OpenLoopHuman
 from cowalk.agents.imperfections.wrapper import Imperfection
 from cowalk.agents.registry import IMPERFECTIONS
 from cowalk.sim.basics.errors import InputError
@@ -104,7 +105,7 @@ class Population(BaseModel):
                 item
                 for item in drawn["imperfections"]
                 if not unsuited(
-                    wrappers[item["name"]](None, **item.get("parameters", {})),
+                    wrappers[item["name"]](OpenLoopHuman(), **item.get("parameters", {})),
                     plant,
                     _RATES.period,
                 )

@@ -8,7 +8,8 @@ from types import TracebackType
 from cowalk.agents.basics.protocols import Automation, Human
 from cowalk.sim.basics.errors import PartError
 
-from ..files.schema import Scenario
+from ..files.parts import kind_of_part
+from ..files.schema import Scenario, part_of
 
 
 class Blame:
@@ -54,12 +55,10 @@ def _named(
         yield human, f"imperfection {item.name!r}"
         human = getattr(human, "human", human)
     yield human, f"human {scenario.human.name!r}"
-    seat = scenario.automation
-    yield automation, f"automation {seat.name!r}"
-    for kind in ("front_end", "smoother", "observer"):
-        named = getattr(seat, kind, None)
-        if named is not None and hasattr(automation, kind):
-            yield getattr(automation, kind), f"{kind.replace('_', ' ')} {named.name!r}"
+    yield automation, f"automation {scenario.automation.name!r}"
+    for part in kind_of_part("automation").children():
+        if not part.many and (made := getattr(automation, part.key, None)) is not None:
+            yield made, f"{part.kind} {part_of(scenario, part.kind).name!r}"
 
 
 def _owners(traceback: TracebackType | None) -> Iterator[object]:

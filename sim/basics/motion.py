@@ -11,10 +11,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .errors import InputError
-from .validators import require_entries
+from .lists import require_entries
+from .validators import Range, require
 
 Array = NDArray[np.float64]
+BOUND: Range = (-10.0, 10.0, "")
+"""Of a twist, m/s and rad/s: what nobody can walk beside (inferred)."""
+SLOWEST = 1e-6
+"""Upper bound of a twist, m/s or rad/s, at which it moves at all (inferred)."""
 
 
 def sinc(angle: ArrayLike) -> Array:
@@ -143,18 +147,15 @@ class TwistBounds:
     Raises
     ------
     InputError
-        If they are not two finite numbers each, a lower bound is not below its upper bound, or an
-        upper bound is not positive.
+        If they are not two numbers within `BOUND` each, a lower bound is not below its upper
+        bound, or an upper bound is below `SLOWEST`.
     """
 
     lower: tuple[float, float] = (0.0, -0.5)
     upper: tuple[float, float] = (1.2, 0.5)
 
     def __post_init__(self) -> None:
-        require_entries(self, ("lower", "upper"), 2)
+        require_entries(self, ("lower", "upper"), 2, BOUND)
         for name, low, high in zip(("v", "omega"), self.lower, self.upper, strict=True):
-            if not low < high or not high > 0.0:
-                raise InputError(
-                    f"twist bounds of {name} are [{low}, {high}]; "
-                    "the lower must lie below the upper, and the upper above 0"
-                )
+            what = f"that of {name} must be {SLOWEST:g} or more, and above the lower, {low:g}"
+            require(high >= SLOWEST and high > low, "upper", self.upper, what)

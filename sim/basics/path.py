@@ -9,7 +9,12 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .lists import require_rows
 from .motion import Array, wrap_angle
+from .validators import Range, refusal
+
+PLACE: Range = (-1e5, 1e5, "m")
+"""Where things may be, m: nobody walks farther in a day (inferred)."""
 
 
 @dataclass(frozen=True)
@@ -23,8 +28,9 @@ class Path:
 
     Raises
     ------
-    ValueError
-        If there are fewer than two points or two consecutive ones coincide.
+    InputError
+        If there are fewer than two points, one is not two numbers within `PLACE`, or two
+        consecutive ones coincide.
     """
 
     points: tuple[tuple[float, float], ...]
@@ -38,13 +44,13 @@ class Path:
     _turns: list[float] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
+        need = "a path needs at least two points (x, y)"
+        require_rows(self, "points", (PLACE, PLACE), 2, need)
         points = np.asarray(self.points, dtype=float)
-        if points.ndim != 2 or points.shape[-1] != 2 or len(points) < 2:
-            raise ValueError(f"a path needs at least two points (x, y), not {len(points)}")
         legs = np.diff(points, axis=0)
         lengths = np.hypot(legs[:, 0], legs[:, 1])
         if not np.all(lengths > 0.0):
-            raise ValueError("two consecutive points of a path coincide")
+            raise refusal("points", self.points, "two consecutive points of a path coincide")
         low = np.zeros(len(legs))
         low[0] = -np.inf
         high = lengths.copy()

@@ -3,24 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from numbers import Integral
 
 from .errors import InputError
-from .validators import shown
+from .validators import require_whole
 
-
-def _ratio(fast_name: str, fast: int, slow_name: str, slow: int) -> int:
-    for name, rate in ((fast_name, fast), (slow_name, slow)):
-        if not isinstance(rate, Integral) or isinstance(rate, bool):
-            raise InputError(f"rates.{name} = {shown(rate)}: a whole number is expected, in Hz")
-    if slow <= 0:
-        raise InputError(f"rates.{slow_name} = {slow} Hz: it must be above 0")
-    if fast < slow or fast % slow:
-        raise InputError(
-            f"rates.{fast_name} = {fast} Hz is not a whole multiple of {slow_name} = {slow} Hz; "
-            f"{max(1, round(fast / slow)) * slow} would be"
-        )
-    return fast // slow
+FASTEST = 1_000_000
+"""Hz: a physics step of a microsecond, where rounding begins to show (inferred)."""
 
 
 @dataclass(frozen=True)
@@ -30,8 +18,8 @@ class Rates:
     Raises
     ------
     InputError
-        If one is no whole number above 0, physics no multiple of control or of the sensor, or the
-        sensor none of control.
+        If one is no whole number from 1 to `FASTEST`, physics no multiple of control or of the
+        sensor, or the sensor none of control.
     """
 
     control: int = 20
@@ -39,9 +27,14 @@ class Rates:
     sensor: int = 240
 
     def __post_init__(self) -> None:
-        _ratio("physics", self.physics, "control", self.control)
-        _ratio("sensor", self.sensor, "control", self.control)
-        _ratio("physics", self.physics, "sensor", self.sensor)
+        for name in ("control", "physics", "sensor"):
+            require_whole(name, getattr(self, name), 1, FASTEST, "Hz")
+        for fast, slow in (("physics", "control"), ("sensor", "control"), ("physics", "sensor")):
+            rate, base = getattr(self, fast), getattr(self, slow)
+            if rate % base:
+                near = max(1, round(rate / base)) * base
+                what = f"is not a whole multiple of {slow} = {base} Hz; {near} would be"
+                raise InputError(f"{fast} = {rate} Hz {what}")
 
     @property
     def period(self) -> float:

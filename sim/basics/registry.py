@@ -96,6 +96,11 @@ class Registry(Generic[T]):
         Group of Python entry points that adds names.
     protocol : type, optional
         Class whose methods a class must have to be of this kind.
+
+    Raises
+    ------
+    InputError
+        If a name is no text, ``built_in`` no mapping of such, or the protocol no class.
     """
 
     def __init__(
@@ -105,6 +110,17 @@ class Registry(Generic[T]):
         entry_point_group: str | None = None,
         protocol: type[Any] | None = None,
     ) -> None:
+        # It imports numpy, which whoever asks for help need not wait for.
+        from .validators import require, require_instance, require_text
+
+        require_text("kind", kind)
+        right = isinstance(built_in, Mapping)
+        right = right and all(isinstance(item, str) for pair in built_in.items() for item in pair)
+        require(right, "built_in", built_in, "a mapping of names to module:Class is expected")
+        if entry_point_group is not None:
+            require_text("entry_point_group", entry_point_group)
+        if protocol is not None:
+            require_instance("protocol", protocol, type, "a class")
         self.kind = kind
         self._built_in = dict(built_in)
         self._group = entry_point_group

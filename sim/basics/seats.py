@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
-from .errors import InputError
+from typing import Any
+
+from .validators import require
 
 SEATS = ("human", "automation")
 """In the order in which they are stepped."""
 
 
-def check_seats(seen_by: tuple[str, ...]) -> None:
-    """Refuse seats that there are not.
+def require_seats(given: Any) -> None:
+    """Refuse a dataclass whose ``seen_by`` names seats that there are not.
 
     Raises
     ------
     InputError
-        If an entry is neither ``"human"`` nor ``"automation"``.
+        If it is no list, or an entry is neither ``"human"`` nor ``"automation"``.
     """
-    for seat in seen_by:
-        if seat not in SEATS:
-            raise InputError(f"seen_by = {list(seen_by)}: its entries are {' or '.join(SEATS)}")
+    seats = given.seen_by
+    right = isinstance(seats, tuple | list) and all(seat in SEATS for seat in seats)
+    listed = list(seats) if isinstance(seats, tuple) else seats
+    require(right, "seen_by", listed, f"its entries are {' or '.join(SEATS)}")
+    object.__setattr__(given, "seen_by", tuple(seats))

@@ -1,58 +1,35 @@
-"""Parameters given as their dataclass, as plain data from a file, or not at all; and judged."""
+"""Validators: nonsense is refused at the door, with what would be right.
+
+Every one raises `InputError` whose message begins with the place and whose ``at`` is that place.
+Lists are judged in `cowalk.sim.basics.lists`, parameters in `cowalk.sim.basics.parameters`.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import fields
-from numbers import Real
-from typing import Any, TypeVar
+from numbers import Integral, Real
+from typing import Any, TypeGuard
 
 import numpy as np
 
-from .errors import InputError
-from .registry import did_you_mean
+from .errors import InputError, Step
 
-P = TypeVar("P")
 Range = tuple[float, float, str]
 """Least and largest sensible value, and the unit."""
+Place = Step | tuple[Step, ...]
+"""Name of what is judged, or the way to it from what holds it."""
 
-
-def parameters(name: str, kind: type[P], given: Any) -> P:
-    """Return parameters as their dataclass.
-
-    Parameters
-    ----------
-    name : str
-        What messages call them.
-    kind : type
-        The dataclass.
-    given : dataclass, mapping or None
-
-    Raises
-    ------
-    InputError
-        If it is neither, a key is unknown or a value refused.
-    """
-    if given is None:
-        return kind()
-    if isinstance(given, kind):
-        return given
-    known = [field.name for field in fields(kind)]  # type: ignore[arg-type]
-    if not isinstance(given, Mapping):
-        keys = ", ".join(known)
-        raise InputError(f"{name} = {shown(given)}: give a mapping or {kind.__name__} of {keys}")
-    if unknown := [str(key) for key in given if key not in known]:
-        raise InputError(f"{name}.{unknown[0]}: unknown key; {did_you_mean(unknown[0], known)}")
-    try:
-        return kind(**given)
-    except InputError as error:
-        raise InputError(f"{name}.{error}") from error
+SHARE: Range = (0.0, 1.0, "")
 
 
 def shown(value: Any) -> str:
     """Return a value as a message shows it: in one line, and not a long one."""
-    text = " ".join(repr(value).split())
+    try:
+        text = " ".join((str if is_number(value) else repr)(value).split())
+    except Exception:  # a user's class may raise anything, and a number have too many digits
+        text = f"a {type(value).__name__}"
     return text if len(text) <= 60 else f"{text[:57]}..."
 
 
@@ -61,24 +38,56 @@ def is_number(value: Any) -> bool:
     return isinstance(value, Real) and not isinstance(value, bool)
 
 
-def require_range(name: str, value: Any, within: Range) -> None:
-    """Refuse what is no number, or one that makes no sense.
+def refusal(place: Place, value: Any, what: str, unit: str = "") -> InputError:
+    """Return the error of one value: ``place = value unit: what``."""
+    at = place if isinstance(place, tuple) else (place,)
+    of = f" {unit}" if unit and is_number(value) else ""
+    return InputError(f"{'.'.join(map(str, at))} = {shown(value)}{of}: {what}", at)
+
+
+def require(holds: bool, place: Place, value: Any, what: str, unit: str = "") -> None:
+    """Refuse a value unless a condition holds.
 
     Raises
     ------
     InputError
-        With the name, the value and the range.
+        With the place, the value and ``what`` it must be.
     """
-    low, high, unit = within
-    of = f" {unit}" if unit else ""
-    if not is_number(value):
-        raise InputError(f"{name} = {shown(value)}: a number is expected{of and f', in{of}'}")
-    if not low <= value <= high:
-        raise InputError(f"{name} = {value}{of}: must lie between {low:g} and {high:g}{of}")
+    if not holds:
+        raise refusal(place, value, what, unit)
 
 
-def require_ranges(given: Any, ranges: Mapping[str, Range]) -> None:
+def require_range(place: Place, value: Any, within: Range, lanes: bool = False) -> None:
+    """Refuse what is no number, or one that makes no sense.
+
+    Parameters
+    ----------
+    place : str, int or tuple of them
+    value : object
+    within : Range
+    lanes : bool
+        Whether an array may be given, a number for each of a batch.
+
+    Raises
+    ------
+    InputError
+        With the place, the value and the range.
+    """
+    unit = within[2]
+    if not (is_number(value) or (lanes and is_array(value))):
+        raise refusal(place, value, f"a number is expected{unit and f', in {unit}'}")
+    require(lies(value, within), place, value, between(within), unit)
+
+
+def require_ranges(given: Any, ranges: Mapping[str, Range], lanes: bool = False) -> None:
     """Refuse numbers of a dataclass that make no sense; a default always does.
+
+    Parameters
+    ----------
+    given : dataclass
+    ranges : mapping of str to Range
+    lanes : bool
+        See `require_range`.
 
     Raises
     ------
@@ -91,37 +100,23 @@ def require_ranges(given: Any, ranges: Mapping[str, Range]) -> None:
         if value is default or (is_number(value) and value == default):
             continue
         try:
-            require_range(name, value, within)
+            require_range(name, value, within, lanes)
         except InputError as error:
-            raise InputError(f"{error}{_or_default(default, within)}") from None
+            raise InputError(f"{error}{_or_default(default, within)}", error.at) from None
 
 
-def _or_default(default: Any, within: Range) -> str:
-    """Return what else may be given where the default lies outside of the range."""
-    if default is None or default == math.inf:
-        return ", or be left out"
-    inside = not is_number(default) or within[0] <= default <= within[1]
-    return "" if inside else f", or be {default:g}"
-
-
-def require_entries(given: Any, names: Iterable[str], count: int, least: float = -math.inf) -> None:
-    """Refuse fields of a dataclass that are not so many finite numbers, of at least some value.
-
-    Lists and arrays become tuples, which can be compared and stay as they are.
+def require_whole(place: Place, value: Any, least: int, most: int, unit: str = "") -> None:
+    """Refuse what is no whole number, or one that makes no sense.
 
     Raises
     ------
     InputError
-        With the name and the value of the first one.
+        With the place, the value and the range.
     """
-    for name in names:
-        value = getattr(given, name)
-        enough = isinstance(value, tuple | list | np.ndarray) and len(value) == count
-        if not (enough and all(is_number(x) and least <= x and math.isfinite(x) for x in value)):
-            of = f" of at least {least:g}" if least > -math.inf else ""
-            raise InputError(f"{name} = {shown(value)}: must be {count} finite numbers{of}")
-        if not isinstance(value, tuple):
-            object.__setattr__(given, name, tuple(value))
+    of = f" {unit}" if unit else ""
+    whole = isinstance(value, Integral) and not isinstance(value, bool)
+    require(whole, place, value, f"a whole number is expected{of and f', in{of}'}")
+    require(least <= value <= most, place, value, f"must lie between {least} and {most}{of}", unit)
 
 
 def require_choices(given: Any, choices: Mapping[str, Collection[str]]) -> None:
@@ -134,20 +129,30 @@ def require_choices(given: Any, choices: Mapping[str, Collection[str]]) -> None:
     """
     for name, words in choices.items():
         value = getattr(given, name)
-        if not (isinstance(value, str) and value in words):
-            raise InputError(f"{name} = {shown(value)}: must be one of {', '.join(words)}")
+        right = isinstance(value, str) and value in words
+        require(right, name, value, f"must be one of {', '.join(words)}")
 
 
-def require_flag(name: str, value: Any) -> None:
+def require_flag(place: Place, value: Any) -> None:
     """Refuse what is neither true nor false.
 
     Raises
     ------
     InputError
-        With the name and the value.
+        With the place and the value.
     """
-    if not isinstance(value, bool | np.bool_):
-        raise InputError(f"{name} = {shown(value)}: true or false is expected")
+    require(isinstance(value, bool | np.bool_), place, value, "true or false is expected")
+
+
+def require_text(place: Place, value: Any, what: str = "text") -> None:
+    """Refuse what is no text, or empty.
+
+    Raises
+    ------
+    InputError
+        With the place, the value and ``what`` is expected.
+    """
+    require(isinstance(value, str) and value != "", place, value, f"{what} is expected")
 
 
 def require_effect(given: Any, kinds: Mapping[str, Collection[str]]) -> None:
@@ -168,8 +173,64 @@ def require_effect(given: Any, kinds: Mapping[str, Collection[str]]) -> None:
     for kind, names in kinds.items():
         for name in names if kind != given.kind else ():
             value = getattr(given, name)
-            if value != usual[name]:
-                raise InputError(
-                    f"{name} = {value}: has no effect with kind = {given.kind!r}, only with "
-                    f"{kind!r}; leave it out"
-                )
+            what = f"has no effect with kind = {given.kind!r}, only with {kind!r}; leave it out"
+            require(value == usual[name], name, value, what)
+
+
+def require_instance(place: Place, value: Any, kind: type, what: str = "") -> None:
+    """Refuse what is not of a kind.
+
+    Raises
+    ------
+    InputError
+        With the place, the value and ``what`` is expected: ``a World``.
+    """
+    require(isinstance(value, kind), place, value, f"{what or kind.__name__} is expected")
+
+
+def require_part(place: Place, value: Any, what: str, methods: Iterable[str]) -> None:
+    """Refuse what lacks a method that it will be asked for, and classes where an object is needed.
+
+    Raises
+    ------
+    InputError
+        With the place, the value, ``what`` is expected, and the first method that is missing.
+    """
+    missing = [name for name in methods if not callable(getattr(value, name, None))]
+    whole = not missing and not isinstance(value, type)
+    lacks = f", with a method {missing[0]}" if missing else ", not its class"
+    require(whole, place, value, f"{what} is expected{lacks}")
+
+
+def _or_default(default: Any, within: Range) -> str:
+    """Return what else may be given where the default lies outside of the range."""
+    if default is None or default == math.inf:
+        return ", or be left out"
+    inside = not is_number(default) or within[0] <= default <= within[1]
+    return "" if inside else f", or be {default:g}"
+
+
+def is_array(value: Any) -> TypeGuard[np.ndarray]:
+    """Return whether a value is an array of numbers, not an empty one."""
+    return isinstance(value, np.ndarray) and value.dtype.kind in "iuf" and value.size > 0
+
+
+def between(within: Range) -> str:
+    """Return what must hold of a number in a range, for messages."""
+    low, high, unit = within
+    return f"must lie between {low:g} and {high:g}{unit and f' {unit}'}"
+
+
+def lies(value: Any, within: Range) -> bool:
+    """Return whether a number, or every number of an array, lies within a range."""
+    low, high, _ = within
+    if is_array(value):
+        return bool(np.all((low <= value) & (value <= high)))
+    return bool(low <= value <= high)
+
+
+def listed(value: Any) -> Any:
+    """Return lists and arrays as tuples, which can be compared and stay as they are."""
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    return tuple(map(listed, value)) if isinstance(value, list | tuple) else value

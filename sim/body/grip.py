@@ -5,14 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ..basics.errors import InputError
-from ..basics.validators import (
-    Range,
-    require_choices,
-    require_effect,
-    require_entries,
-    require_ranges,
-)
+from ..basics.lists import require_entries
+from ..basics.validators import Range, require, require_choices, require_effect, require_ranges
 
 GRIPS = ("rigid", "compliant")
 ON_LOSS = ("end", "stop")
@@ -22,6 +16,8 @@ RANGES: dict[str, Range] = {
     "release_force": (0.1, 1e4, "N"),
 }
 """What a hand can do, with room to spare (inferred)."""
+SPRING: Range = (0.0, 1e9, "")
+"""Of stiffness and damping, SI: what is too stiff to be simulated is refused later (inferred)."""
 Triple = tuple[float, float, float]
 
 
@@ -54,7 +50,7 @@ class GripParameters:
     Raises
     ------
     InputError
-        If a kind is unknown, a number is negative or outside of `RANGES`, or one is given that
+        If a kind is unknown, a number is outside of `RANGES` or `SPRING`, or one is given that
         has no effect with the kind.
     """
 
@@ -71,12 +67,12 @@ class GripParameters:
     def __post_init__(self) -> None:
         require_choices(self, {"kind": GRIPS, "on_loss": ON_LOSS})
         springs = ("stiffness", "damping", "turn_stiffness", "turn_damping")
-        require_entries(self, springs, 3, least=0.0)
-        if self.kind == "compliant" and not min(self.stiffness[:2]) > 0.0:
-            raise InputError(f"stiffness = {self.stiffness}: must be above 0 along x and y")
+        require_entries(self, springs, 3, SPRING)
+        holds = self.kind == "rigid" or min(self.stiffness[:2]) > 0.0
+        require(holds, "stiffness", self.stiffness, "must be above 0 along x and y")
         require_ranges(self, RANGES)
-        if self.slip_force is not None and self.kind == "rigid":
-            raise InputError(f"slip_force = {self.slip_force}: only a compliant grip can slip")
+        holds = self.slip_force is None or self.kind == "compliant"
+        require(holds, "slip_force", self.slip_force, "only a compliant grip can slip")
         require_effect(self, {"compliant": ("stiffness", "damping", "slip_length")})
 
 

@@ -89,14 +89,15 @@ def refuse_unstable(bodies: Masses, gains: Gains, step: float, held: int) -> Non
         value = gains.get(section, name)
         if (best := _limit(linear, gains, held, section, name)) is not None:
             shown, works = f"{section}.{name} = {_shown(value)}", f"{_shown(best)} works here"
-            if _largest(value) < _largest(best):
-                raise InputError(f"{shown}: the bodies would diverge; at least {works}")
-            if name == "delay":
-                raise InputError(f"{shown} s: the legs would swing up; at most {works}")
-            raise InputError(
-                f"{shown}: the bodies would diverge at a physics step of {1e3 * step:.2g} ms; "
-                f"at most {works}, or raise rates.physics"
+            what = (
+                f": the bodies would diverge at a physics step of {1e3 * step:.2g} ms; at most "
+                f"{works}, or raise rates.physics"
             )
+            if _largest(value) < _largest(best):
+                what = f": the bodies would diverge; at least {works}"
+            elif name == "delay":
+                what = f" s: the legs would swing up; at most {works}"
+            raise InputError(f"{shown}{what}", (section, name))
     if gains.changed and _stable(linear, Gains(), held):
         names = ", ".join(f"{section}.{name}" for section, name in gains.changed)
         raise InputError(f"{names}: together they would let the bodies diverge; see docs/plant.md")
@@ -105,13 +106,15 @@ def refuse_unstable(bodies: Masses, gains: Gains, step: float, held: int) -> Non
         raise InputError(
             f"walker.delay = {gains.walker.delay:g} s: the legs of this body "
             f"({body.height:g} m, {body.mass:g} kg) would swing up; at most {latest:g} works here, "
-            "or lower walker.damping and walker.yaw_damping"
+            "or lower walker.damping and walker.yaw_damping",
+            ("walker", "delay"),
         )
     rate = round(1.0 / step)
     enough = (n for n in FASTER if _stable(Linear(bodies, step / n), gains, held))
     cure = next((f"{n * rate} works" for n in enough), "the robot or its load may be too light")
     raise InputError(
-        f"rates.physics = {rate} Hz: too slow for these bodies, which would diverge; {cure}"
+        f"rates.physics = {rate} Hz: too slow for these bodies, which would diverge; {cure}",
+        ("rates", "physics"),
     )
 
 

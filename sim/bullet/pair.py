@@ -11,6 +11,7 @@ import numpy as np
 from ..basics.errors import InputError, SimulationError
 from ..basics.frames import Vector
 from ..basics.motion import Array
+from ..basics.validators import refusal
 from ..body.anthropometry import BodyParameters
 from ..body.grip import GripParameters
 from ..body.human_body import arm_outlines, eye, human_body, trunk_outline
@@ -92,7 +93,7 @@ class Pair:
     def __init__(self, parameters: PairParameters, step: float, held: int = 1) -> None:
         drive, coupling, hand = parameters.drive, parameters.coupling, parameters.body.hand
         if drive.kind == "wheels" and parameters.robot.urdf is not None:
-            raise InputError("drive.kind = 'wheels': only the robot that ships has wheels")
+            raise refusal(("drive", "kind"), drive.kind, "only the robot that ships has wheels")
         robot = robot_of(parameters.robot, hand, coupling.kind)
         if drive.kind == "wheels":
             refuse_wide_track(robot.rigid, drive)

@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from ..basics.errors import InputError, SimulationError
 from ..basics.motion import Array
+from ..basics.parameters import parameters
 from ..basics.rates import Rates
-from ..basics.validators import parameters, require_flag
+from ..basics.validators import require_flag, require_instance
 from ..body.anthropometry import BodyParameters
 from ..body.gait import Gait, GaitParameters
 from ..body.grip import GripParameters
@@ -80,6 +81,7 @@ class BulletPlant:
         gui: bool = False,
     ) -> None:
         require_flag("gui", gui)
+        require_instance("rates", rates, Rates)
         self._rates = rates
         step = 1.0 / rates.physics
         walker = parameters("walker", WalkerParameters, walker)

@@ -43,7 +43,8 @@ def refuse_wide_track(rigid: Rigid, parameters: DriveParameters) -> None:
         raise InputError(
             f"drive.wheel_track = {track} m: wheels of {WHEEL_MASS} kg so far apart take more than "
             f"{1.0 - BODY_SHARE:.0%} of the base's {rigid.yaw_inertia:.3g} kg m^2; must be "
-            f"{widest:g} m or less with wheel_radius = {parameters.wheel_radius:g} m"
+            f"{widest:g} m or less with wheel_radius = {parameters.wheel_radius:g} m",
+            ("drive", "wheel_track"),
         )
 
 

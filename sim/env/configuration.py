@@ -6,10 +6,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ..basics.errors import InputError
 from ..basics.motion import TwistBounds
 from ..basics.rates import Rates
-from ..basics.validators import Range, require_ranges, shown
+from ..basics.validators import (
+    Range,
+    require,
+    require_instance,
+    require_ranges,
+    require_text,
+)
 from ..sensor.parameters import SensorParameters
 from ..world.world import World
 from .reward import RewardParameters
@@ -54,8 +59,9 @@ class Configuration:
 
     def __post_init__(self) -> None:
         for name, (kind, words) in _KINDS.items():
-            if not isinstance(getattr(self, name), kind):
-                raise InputError(f"{name} = {shown(getattr(self, name))}: {words} is expected")
+            require_instance(name, getattr(self, name), kind, words)
+        for key in self.plant_parameters:
+            require_text("plant_parameters", key, "the name of a parameter")
         require_ranges(self, RANGES)
         # A copy: what is done to theirs later changes nothing here.
         object.__setattr__(self, "plant_parameters", dict(self.plant_parameters))
@@ -75,8 +81,9 @@ def require_reachable(pace: float, bounds: TwistBounds) -> None:
     InputError
         With both speeds.
     """
-    if pace > bounds.upper[0]:
-        raise InputError(
-            f"pace = {pace:g} m/s: must not be above the upper bound of v, "
-            f"{bounds.upper[0]:g} m/s (bounds.upper); give a pace of that or less, or raise it"
-        )
+    fastest = bounds.upper[0]
+    what = (
+        f"must not be above the upper bound of v, {fastest:g} m/s (bounds.upper); give a pace of "
+        "that or less, or raise it"
+    )
+    require(pace <= fastest, "pace", pace, what, "m/s")

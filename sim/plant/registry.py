@@ -41,12 +41,16 @@ def build_plant(
     InputError
         If the plant or an argument is unknown, or a value refused.
     """
-    constructor = PLANTS.get(name)
+    try:
+        constructor = PLANTS.get(name)
+    except InputError as error:
+        raise error.inside("plant") from error
     accepted = inspect.signature(constructor).parameters
     if not any(item.kind is item.VAR_KEYWORD for item in accepted.values()):
         known = [key for key in accepted if key != "rates"]
         if unknown := [key for key in given if key not in known]:
             hint = did_you_mean(str(unknown[0]), known) if known else f"{name!r} takes none"
-            raise InputError(f"plant_parameters.{unknown[0]}: unknown key; {hint}")
+            at = "plant_parameters", str(unknown[0])
+            raise InputError(f"{'.'.join(at)}: unknown key; {hint}", at)
     shows = window and "gui" in accepted
     return constructor(rates, **given, **({"gui": True} if shows else {})), shows

@@ -185,7 +185,8 @@ def slip_gains(
             unit, what = RANGES[name][2], "kg m^2" if name == "gain_yaw" else "kg"
             raise InputError(
                 f"drive.{name} = {gain:g} {unit}: a base of {moved:.3g} {what} and a physics step "
-                f"of {1e3 * step:.2g} ms carry at most {most:.4g}; lower it or raise rates.physics"
+                f"of {1e3 * step:.2g} ms carry at most {most:.4g}; lower it or raise rates.physics",
+                ("drive", name),
             )
         gains.append(min(gain, most))
     forward, sideways, yaw = gains

@@ -104,7 +104,8 @@ def refuse_overlap(
         other = f", or hold it with the {'left' if body.hand == 'right' else 'right'} hand"
     raise InputError(
         f"robot.handle = {name!r}: who holds it with {hand} stands {move:.2f} m inside the shapes "
-        f"of link {links}; move it {move:.2f} m {nearest}, or to the robot's rim{other}"
+        f"of link {links}; move it {move:.2f} m {nearest}, or to the robot's rim{other}",
+        ("robot", "handle"),
     )
 
 

@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 from ..basics.errors import InputError
 from ..basics.frames import Vector
 from ..basics.registry import did_you_mean
-from ..basics.validators import shown
+from ..basics.validators import require, require_text
 from ..urdf.read import Rigid, left_right_swapped, lump, read_robot
 from ..urdf.solids import Solid, robot_outline, robot_solids
 from ..world.outline import Outline, disc
@@ -49,11 +49,10 @@ class RobotParameters:
     camera: str = "camera"
 
     def __post_init__(self) -> None:
-        if not isinstance(self.urdf, str | os.PathLike | None):
-            raise InputError(f"urdf = {shown(self.urdf)}: the path of a URDF file is expected")
+        right = self.urdf is None or (isinstance(self.urdf, str | os.PathLike) and self.urdf != "")
+        require(right, "urdf", self.urdf, "the path of a URDF file is expected")
         for name in ("handle", "camera"):
-            if not isinstance(value := getattr(self, name), str):
-                raise InputError(f"{name} = {shown(value)}: the name of a link is expected")
+            require_text(name, getattr(self, name), "the name of a link")
 
 
 @dataclass(frozen=True)
@@ -94,6 +93,14 @@ def robot_of(parameters: RobotParameters, hand: str, coupling: str) -> Robot:
     InputError
         If the file or a named link is missing, a mesh cannot be read, or the robot has no mass.
     """
+    try:
+        return _robot_of(parameters, hand, coupling)
+    except InputError as error:
+        raise error.inside("robot") from error
+
+
+def _robot_of(parameters: RobotParameters, hand: str, coupling: str) -> Robot:
+    """Return the robot; errors say where in its parameters they are."""
     if parameters.urdf is None:
         rear = hand == "both" or coupling == "stretcher"
         name = "base_rear.urdf" if rear else "base.urdf"
@@ -120,7 +127,7 @@ def robot_of(parameters: RobotParameters, hand: str, coupling: str) -> Robot:
 def _place_of(rigid: Rigid, parameter: str, name: str) -> Vector:
     if name not in rigid.places:
         hint = did_you_mean(name, sorted(rigid.places))
-        raise InputError(f"robot.{parameter}: no link {name!r}; {hint}")
+        raise InputError(f"{parameter}: no link {name!r}; {hint}", (parameter,))
     return rigid.places[name]
 
 
@@ -143,7 +150,7 @@ def _absolute_meshes(root: ElementTree.Element, folder: Path) -> None:
             for mesh in link.findall(f"{kind}/geometry/mesh"):
                 given = mesh.get("filename", "")
                 path = _mesh_path(given, folder)
-                fault = f'robot: link {link.get("name", "")!r}, <{kind}>: <mesh filename="{given}">'
+                fault = f'link {link.get("name", "")!r}, <{kind}>: <mesh filename="{given}">'
                 if not path.is_file():
                     raise InputError(f"{fault}: there is no mesh {str(path)!r}")
                 if kind == "visual" and path.suffix.lower() not in DRAWN:

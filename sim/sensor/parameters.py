@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
-
-import numpy as np
 
 from ..basics.errors import InputError
 from ..basics.validators import (
     Range,
+    listed,
+    require,
     require_flag,
     require_range,
     require_ranges,
-    shown,
 )
 
 LONGEST_LATENCY = 1.0
@@ -112,12 +110,13 @@ class SensorParameters:
         require_flag("tare", self.tare)
         require_ranges(self, RANGES)
         for name, within in RANGES_OF_AXES.items():
-            axes = _tuples(getattr(self, name))
+            axes = listed(getattr(self, name))
             object.__setattr__(self, name, axes)
             if isinstance(axes, tuple) and len(axes) not in (2, 3):
                 raise InputError(
                     f"{name} has {len(axes)} entries; give one number, or 3 for x, y and z, "
-                    "or 2 for x and y"
+                    "or 2 for x and y",
+                    (name,),
                 )
             for value in axes if isinstance(axes, tuple) else (axes,):
                 require_range(name, value, within)
@@ -126,31 +125,22 @@ class SensorParameters:
             ("resolution", "range", "N"),
             ("torque_resolution", "torque_range", "N m"),
         ):
-            if getattr(self, step) > getattr(self, limit):
-                raise InputError(
-                    f"{step} = {getattr(self, step)} {unit}: must not be above "
-                    f"{limit} = {getattr(self, limit)} {unit}, else nothing but 0 is read"
-                )
+            value, most = getattr(self, step), getattr(self, limit)
+            what = f"must not be above {limit} = {most} {unit}, else nothing but 0 is read"
+            require(value <= most, step, value, what, unit)
 
     def _require_cross_talk(self) -> None:
-        given = _tuples(self.cross_talk)
+        given = listed(self.cross_talk)
         object.__setattr__(self, "cross_talk", given)
         if not isinstance(given, tuple):
             require_range("cross_talk", given, CROSS_TALK)
             return
         rows = [isinstance(row, tuple) and len(row) for row in given]
-        if rows not in ([2] * 2, [3] * 3, [6] * 6):
-            raise InputError(
-                f"cross_talk = {shown(given)}: give one number, or 6 rows of 6, or 3 of 3 for "
-                "forces, or 2 of 2 for those along x and y"
-            )
+        what = (
+            "give one number, or 6 rows of 6, or 3 of 3 for forces, or 2 of 2 for those along x "
+            "and y"
+        )
+        require(rows in ([2] * 2, [3] * 3, [6] * 6), "cross_talk", given, what)
         for row in given:
             for value in row:
                 require_range("cross_talk", value, CROSS_TALK_ENTRY)
-
-
-def _tuples(value: Any) -> Any:
-    """Return lists and arrays as tuples, which can be compared and stay as they are."""
-    if isinstance(value, np.ndarray):
-        value = value.tolist()
-    return tuple(map(_tuples, value)) if isinstance(value, list | tuple) else value

@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from ..basics.errors import InputError
+from ..basics.parameters import parameters
 from ..basics.registry import did_you_mean
-from ..basics.validators import (
-    parameters,
-)
+from ..basics.validators import require_text
 from .parameters import SensorParameters
 
 PRESETS: dict[str, tuple[str, SensorParameters]] = {
@@ -110,6 +109,7 @@ def sensor_preset(name: str, **changes: Any) -> SensorParameters:
     InputError
         If there is no such preset, or a change is refused.
     """
+    require_text("preset", name, "the name of a preset")
     if name == "none":
         return parameters("sensor", SensorParameters, changes)
     if name not in PRESETS:

@@ -138,7 +138,8 @@ class ForceSensor:
             f"sensor.{name} = {self._range[worst]:g} {unit}: what is clamped on at rest already "
             f"reads {read[worst]:.3g} {unit} {axis}, bias included; give a range well above "
             f"{abs(read[worst]):.3g} {unit}, or let it carry well below "
-            f"{self._range[worst] / abs(read[worst]):.0%} of that (coupling.mass)"
+            f"{self._range[worst] / abs(read[worst]):.0%} of that (coupling.mass)",
+            ("sensor", name),
         )
 
     def measure(self, wrench_on_base: Array, mount: SensorMount = AT_HANDLE) -> Reading:

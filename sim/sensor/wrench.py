@@ -8,13 +8,15 @@ from functools import cached_property
 
 import numpy as np
 
-from ..basics.errors import InputError
 from ..basics.frames import rotation
+from ..basics.lists import require_entries
 from ..basics.motion import Array
-from ..basics.validators import require_entries
+from ..basics.validators import Range, require
 
 FARTHEST = 2.0
 """Of a sensor from the handle, m: beyond the size of what two people walk with (inferred)."""
+TURN: Range = (-10.0, 10.0, "rad")
+"""Of its attitude: more than a turn either way (inferred)."""
 
 
 @dataclass(frozen=True)
@@ -31,18 +33,18 @@ class SensorMount:
     Raises
     ------
     InputError
-        If it is not three numbers each, or farther from the handle than `FARTHEST`.
+        If it is not three numbers each, farther from the handle than `FARTHEST`, or an angle
+        outside of `TURN`.
     """
 
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
     rpy: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     def __post_init__(self) -> None:
-        require_entries(self, ("position", "rpy"), 3)
-        if math.hypot(*self.position) > FARTHEST:
-            raise InputError(
-                f"position = {self.position} m: must lie within {FARTHEST:g} m of the handle"
-            )
+        require_entries(self, ("position",), 3, (-math.inf, math.inf, "m"))
+        require_entries(self, ("rpy",), 3, TURN)
+        what = f"must lie within {FARTHEST:g} m of the handle"
+        require(math.hypot(*self.position) <= FARTHEST, "position", self.position, what)
 
     # Read in every control step, so worked out once.
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..basics.errors import SimulationError
 from ..basics.rates import Rates
+from ..basics.validators import require_instance
 from ..plant.discs import HUMAN_PLACE, HUMAN_RADIUS, PLAIN_BODIES
 from ..plant.protocol import PlantState
 from ..robot.shipped import BASE_RADIUS
@@ -26,12 +27,18 @@ class UnicyclePlant:
     Parameters
     ----------
     rates : Rates
+
+    Raises
+    ------
+    InputError
+        If it is not given `Rates`.
     """
 
     steers_from_behind = False
     wheels = None
 
     def __init__(self, rates: Rates) -> None:
+        require_instance("rates", rates, Rates)
         self._period = rates.period
         self._samples = rates.samples
         self._pose = (0.0, 0.0, 0.0)

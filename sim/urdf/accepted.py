@@ -100,7 +100,7 @@ def check_urdf(root: Element) -> None:
                 for attribute in NUMBERS.get(element.tag, ()):
                     numbers(element, attribute)
             except InputError as error:
-                raise InputError(f"robot: {owner}: {error}") from None
+                raise InputError(f"{owner}: {error}") from None
     _tree(root)
 
 
@@ -134,9 +134,9 @@ def _tree(root: Element) -> None:
     for link in root.findall("link"):
         name = link.get("name", "")
         if not name:
-            raise InputError('robot: a <link> without "name": give it one')
+            raise InputError('a <link> without "name": give it one')
         if name in known:
-            raise InputError(f"robot: there are two links {name!r}: rename one")
+            raise InputError(f"there are two links {name!r}: rename one")
         known.append(name)
     above: dict[str, str] = {}
     for joint in root.findall("joint"):
@@ -145,13 +145,13 @@ def _tree(root: Element) -> None:
             found = joint.find(end)
             link_name = found.get("link", "") if found is not None else ""
             if not link_name:
-                raise InputError(f'robot: joint {name!r}: no <{end} link="...">; name a link')
+                raise InputError(f'joint {name!r}: no <{end} link="...">; name a link')
             if link_name not in known:
                 hint = did_you_mean(link_name, known)
-                raise InputError(f"robot: joint {name!r}: no {end} link {link_name!r}; {hint}")
+                raise InputError(f"joint {name!r}: no {end} link {link_name!r}; {hint}")
         if link_name in above:
             raise InputError(
-                f"robot: link {link_name!r} is the child of two joints, {above[link_name]!r} and "
+                f"link {link_name!r} is the child of two joints, {above[link_name]!r} and "
                 f"{name!r}: it can have one"
             )
         above[link_name] = name

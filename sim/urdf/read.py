@@ -54,13 +54,17 @@ def read_robot(path: Path) -> ElementTree.Element:
     try:
         root = ElementTree.parse(path).getroot()
     except OSError as error:
-        raise InputError(f"robot.urdf = {str(path)!r}: no such file can be read") from error
+        raise _faulty(path, "no such file can be read") from error
     except (ElementTree.ParseError, LookupError) as error:  # the latter: an unknown encoding
-        raise InputError(f"robot.urdf = {str(path)!r}: no XML: {error}") from error
+        raise _faulty(path, f"no XML: {error}") from error
     if root.tag != "robot" or root.find("link") is None:
-        raise InputError(f"robot.urdf = {str(path)!r}: no <robot> with a <link> in it")
+        raise _faulty(path, "no <robot> with a <link> in it")
     check_urdf(root)
     return root
+
+
+def _faulty(path: Path, what: str) -> InputError:
+    return InputError(f"urdf = {str(path)!r}: {what}", ("urdf",))
 
 
 def origin(element: ElementTree.Element) -> Frame:
@@ -81,14 +85,14 @@ def _inertia(link: str, element: ElementTree.Element) -> Array:
         return matrix
     for key, value in zip(keys, values, strict=True):
         if value <= 0.0 and key in keys[:3]:
-            raise InputError(f"robot: link {link!r} has {key} = {value:g} kg m^2: must be above 0")
+            raise InputError(f"link {link!r} has {key} = {value:g} kg m^2: must be above 0")
     least, middle, most = (float(moment) for moment in np.linalg.eigvalsh(matrix))
     moments = f"principal moments {least:.3g}, {middle:.3g}, {most:.3g} kg m^2"
     if least <= 0.0:
-        raise InputError(f"robot: link {link!r} has {moments}: all three must be above 0")
+        raise InputError(f"link {link!r} has {moments}: all three must be above 0")
     if most > COARSE * (least + middle):
         raise InputError(
-            f"robot: link {link!r} has {moments}: no body can have more about one axis than "
+            f"link {link!r} has {moments}: no body can have more about one axis than "
             "about the other two together"
         )
     return matrix
@@ -109,7 +113,7 @@ def link_frames(root: ElementTree.Element) -> dict[str, Frame]:
         above = [name]  # up to what is known; a file may be thousands of links deep
         while above[-1] not in frames and above[-1] in children:
             if len(above) > len(children):
-                raise InputError(f"robot: the joints above link {name!r} form a loop")
+                raise InputError(f"the joints above link {name!r} form a loop")
             above.append(_end(children[above[-1]], "parent"))
         frames.setdefault(above[-1], (np.eye(3), np.zeros(3)))
         for upper, lower in pairwise(reversed(above)):
@@ -119,9 +123,7 @@ def link_frames(root: ElementTree.Element) -> dict[str, Frame]:
     names = [link.get("name", "") for link in root.findall("link")]
     if len(roots := [name for name in names if name not in children]) != 1:
         which = f" ({', '.join(roots)})" if roots else ""
-        raise InputError(
-            f"robot: {len(roots)} links are no joint's child{which}: must be one, the root"
-        )
+        raise InputError(f"{len(roots)} links are no joint's child{which}: must be one, the root")
     return {name: frame(name) for name in names}
 
 
@@ -141,11 +143,11 @@ def lump(root: ElementTree.Element) -> Rigid:
         found = inertial.find("mass") if inertial is not None else None
         mass = number(found, "value") if found is not None else 0.0
         if mass < 0.0:
-            raise InputError(f"robot: link {name!r} has mass = {mass:g} kg: it must be at least 0")
+            raise InputError(f"link {name!r} has mass = {mass:g} kg: it must be at least 0")
         if inertial is None or mass == 0.0:
             if link.find("collision") is not None:
                 raise InputError(
-                    f"robot: link {name!r} has collision shapes but no mass; give it <inertial> "
+                    f"link {name!r} has collision shapes but no mass; give it <inertial> "
                     "with <mass> and <inertia>, or take the shapes out"
                 )
             continue
@@ -157,16 +159,16 @@ def lump(root: ElementTree.Element) -> Rigid:
         parts.append((mass, centre, inertia[2, 2]))
     total = sum(mass for mass, _, _ in parts)
     if total <= 0.0:
-        raise InputError("robot: its links have no mass")
+        raise InputError("its links have no mass")
     if total < LEAST_MASS:
         raise InputError(
-            f"robot: its links weigh {total:.3g} kg together: it must be {LEAST_MASS:g} kg or "
+            f"its links weigh {total:.3g} kg together: it must be {LEAST_MASS:g} kg or "
             "more (URDF counts in kg)"
         )
     centre = sum((mass * place for mass, place, _ in parts), np.zeros(3)) / total
     yaw = sum(izz + m * float(np.sum((p - centre)[:2] ** 2)) for m, p, izz in parts)
     if not yaw > 0.0:
-        raise InputError("robot: nothing resists a turn about the vertical; give links <inertia>")
+        raise InputError("nothing resists a turn about the vertical; give links <inertia>")
     places = {name: _vector(place) for name, (_, place) in frames.items()}
     return Rigid(total, _vector(centre), float(yaw), places)
 

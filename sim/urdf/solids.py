@@ -97,13 +97,13 @@ def robot_outline(solids: tuple[Solid, ...]) -> tuple[Outline, float]:
         if reach > FARTHEST:
             mesh = "; a mesh drawn in mm needs scale='0.001 0.001 0.001'"
             raise InputError(
-                f"robot: a shape of link {solid.link!r} reaches {reach:.4g} m from the root: must "
+                f"a shape of link {solid.link!r} reaches {reach:.4g} m from the root: must "
                 f"be {FARTHEST:g} m or less{mesh if solid.faces is not None else ''}"
             )
     try:
         outline = hull(disc for solid in solids for disc in solid.discs)
     except ValueError as error:
-        raise InputError("robot: its shapes have no breadth") from error
+        raise InputError("its shapes have no breadth") from error
     return outline, max(0.0, *(solid.top for solid in solids))
 
 
@@ -134,7 +134,7 @@ def _solid(link: str, element: ElementTree.Element, frame: Frame) -> Solid:
     try:
         points, faces = _mesh(shape.get("filename", ""))
     except ValueError as error:
-        raise InputError(f"robot: link {link!r}: {error}") from error
+        raise InputError(f"link {link!r}: {error}") from error
     return Solid(link, placed(points * numbers(shape, "scale")), faces=faces)
 
 

@@ -7,8 +7,17 @@ import math
 from bisect import bisect_right
 from dataclasses import dataclass, field
 
-from ..basics.errors import InputError
-from ..basics.seats import SEATS, check_seats
+from ..basics.lists import require_rows
+from ..basics.path import PLACE
+from ..basics.seats import SEATS, require_seats
+from ..basics.validators import Range, refusal, require_flag, require_ranges
+
+RANGES: dict[str, Range] = {
+    "speed": (0.01, 10.0, "m/s"),
+    "start_time": (0.0, 86400.0, "s"),
+    "radius": (0.01, 5.0, "m"),
+}
+"""From a child that dawdles to a runner with a bed (inferred)."""
 
 
 @dataclass(frozen=True)
@@ -34,7 +43,8 @@ class Pedestrian:
     Raises
     ------
     InputError
-        If the waypoints, the speed, the radius or the seats make no sense.
+        If there are fewer than two waypoints, one is not two numbers within `PLACE`, two in a
+        row are the same, a number is outside of `RANGES`, or a seat is unknown.
     """
 
     waypoints: tuple[tuple[float, float], ...]
@@ -46,18 +56,16 @@ class Pedestrian:
     _station: tuple[float, ...] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
+        what = "give at least two points, no two in a row the same"
+        require_rows(self, "waypoints", (PLACE, PLACE), 2, what)
+        require_ranges(self, RANGES)
+        require_flag("back_and_forth", self.back_and_forth)
+        require_seats(self)
         station = [0.0]
-        for (x, y), (to_x, to_y) in zip(self.waypoints, self.waypoints[1:], strict=False):
+        for (x, y), (to_x, to_y) in itertools.pairwise(self.waypoints):
             station.append(station[-1] + math.hypot(to_x - x, to_y - y))
-        distinct = all(b > a for a, b in itertools.pairwise(station))
-        if len(self.waypoints) < 2 or not distinct:
-            raise InputError("waypoints: give at least two points, no two in a row the same")
-        for name, unit in (("speed", "m/s"), ("radius", "m")):
-            if not 0.0 < getattr(self, name) < math.inf:
-                raise InputError(f"{name} = {getattr(self, name)} {unit}: it must be above 0")
-        if not 0.0 <= self.start_time < math.inf:
-            raise InputError(f"start_time = {self.start_time} s: it must be at least 0")
-        check_seats(self.seen_by)
+        if not all(b > a for a, b in itertools.pairwise(station)):
+            raise refusal("waypoints", self.waypoints, what)
         object.__setattr__(self, "_station", tuple(station))
 
     def state(self, time: float) -> tuple[float, float, float, float]:

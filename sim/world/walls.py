@@ -3,39 +3,37 @@
 from __future__ import annotations
 
 import itertools
-import math
 from dataclasses import dataclass
 from typing import Literal
 
 from ..basics.errors import InputError
+from ..basics.lists import require_entries, require_instances
+from ..basics.path import PLACE
+from ..basics.validators import Range, require, require_choices, require_ranges
 
-
-def require_positive(thing: object, *names: str) -> None:
-    """Refuse sizes of a thing (m) that are not above 0.
-
-    Raises
-    ------
-    InputError
-        With name and value of the first one.
-    """
-    for name in names:
-        value = getattr(thing, name)
-        if value is not None and not 0.0 < value < math.inf:
-            raise InputError(f"{name} = {value} m: it must be above 0")
+SIZE: Range = (1e-3, 1000.0, "m")
+"""Of things and rooms, m: a large hall (inferred)."""
 
 
 @dataclass(frozen=True)
 class Wall:
-    """A straight wall from one point to another, in m, world axes; ``thickness`` in m."""
+    """A straight wall from one point to another, in m, world axes; ``thickness`` in m.
+
+    Raises
+    ------
+    InputError
+        If an end is not two numbers within `PLACE`, both are the same, or the thickness is
+        outside of `SIZE`.
+    """
 
     start: tuple[float, float]
     end: tuple[float, float]
     thickness: float = 0.1
 
     def __post_init__(self) -> None:
-        require_positive(self, "thickness")
-        if tuple(self.start) == tuple(self.end):
-            raise InputError(f"end = {list(self.end)}: it is where the wall starts")
+        require_ranges(self, {"thickness": SIZE})
+        require_entries(self, ("start", "end"), 2, PLACE)
+        require(self.start != self.end, "end", list(self.end), "it is where the wall starts")
 
 
 @dataclass(frozen=True)
@@ -50,6 +48,11 @@ class Doorway:
         Clear width of the opening, m. Base and human beside it take 1.16 m.
     y : float
         Centre of the opening, m, world axes.
+
+    Raises
+    ------
+    InputError
+        If a place is outside of `PLACE`, or a size outside of `SIZE`.
     """
 
     x: float
@@ -57,7 +60,7 @@ class Doorway:
     y: float = 0.0
 
     def __post_init__(self) -> None:
-        require_positive(self, "width")
+        require_ranges(self, {"x": PLACE, "width": SIZE, "y": PLACE})
 
 
 @dataclass(frozen=True)
@@ -74,6 +77,11 @@ class SideCorridor:
         On which side of the x axis it lies: left is y > 0.
     length : float
         From the corridor's wall to its own end, m.
+
+    Raises
+    ------
+    InputError
+        If a place is outside of `PLACE`, or a size outside of `SIZE`, or the side unknown.
     """
 
     x: float
@@ -82,7 +90,8 @@ class SideCorridor:
     length: float = 4.0
 
     def __post_init__(self) -> None:
-        require_positive(self, "width", "length")
+        require_ranges(self, {"x": PLACE, "width": SIZE, "length": SIZE})
+        require_choices(self, {"side": ("left", "right")})
 
 
 @dataclass(frozen=True)
@@ -101,7 +110,8 @@ class Corridor:
     Raises
     ------
     InputError
-        If a doorway lies outside, or two side corridors of one side overlap.
+        If the width is outside of `SIZE`, a doorway lies outside, or two side
+        corridors of one side overlap.
     """
 
     width: float
@@ -109,17 +119,20 @@ class Corridor:
     side_corridors: tuple[SideCorridor, ...] = ()
 
     def __post_init__(self) -> None:
-        require_positive(self, "width")
+        require_ranges(self, {"width": SIZE})
+        require_instances(self, {"doorways": Doorway, "side_corridors": SideCorridor})
         for number, door in enumerate(self.doorways):
             if abs(door.y) + door.width / 2.0 > self.width / 2.0:
                 raise InputError(
                     f"doorways.{number} reaches from {door.y - door.width / 2.0:g} to "
-                    f"{door.y + door.width / 2.0:g} m, beyond the corridor's {self.width:g} m"
+                    f"{door.y + door.width / 2.0:g} m, beyond the corridor's {self.width:g} m",
+                    ("doorways", number),
                 )
         for side in ("left", "right"):
             here = sorted((s.x, s.width) for s in self.side_corridors if s.side == side)
             for (x, width), (next_x, next_width) in itertools.pairwise(here):
                 if x + width / 2.0 >= next_x - next_width / 2.0:
                     raise InputError(
-                        f"side_corridors: those at x = {x:g} and {next_x:g} m, {side}, overlap"
+                        f"side_corridors: those at x = {x:g} and {next_x:g} m, {side}, overlap",
+                        ("side_corridors",),
                     )

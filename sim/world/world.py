@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass, fields, is_dataclass
-from numbers import Real
+from dataclasses import dataclass
 
-from ..basics.errors import InputError
-from ..basics.path import Path
-from ..basics.seats import SEATS, check_seats
+from ..basics.lists import require_entries, require_instances
+from ..basics.path import PLACE, Path
+from ..basics.seats import SEATS, require_seats
+from ..basics.validators import (
+    Range,
+    require,
+    require_instance,
+    require_range,
+    require_ranges,
+    require_text,
+)
 from .heights import usual_height
 from .pedestrians import Pedestrian
-from .walls import Corridor, Doorway, SideCorridor, Wall, require_positive
+from .walls import SIZE, Corridor, Doorway, SideCorridor, Wall
 
 __all__ = [
     "SEATS",
@@ -28,18 +34,10 @@ __all__ = [
 ]
 
 
-def _not_finite(name: str, value: object) -> Iterator[str]:
-    """Yield name and value of every number inside that is not finite."""
-    if isinstance(value, tuple | list):
-        for number, part in enumerate(value):
-            yield from _not_finite(f"{name}.{number}", part)
-    elif isinstance(value, Real):
-        if not math.isfinite(value):
-            yield f"{name} = {value}"
-    elif is_dataclass(value):
-        for item in fields(value):
-            if item.init:
-                yield from _not_finite(f"{name}.{item.name}", getattr(value, item.name))
+ANGLE: Range = (-1000.0, 1000.0, "rad")
+"""Of what stands there: some turns more than one, but not nonsense (inferred)."""
+SIGHT: Range = (0.01, 1e5, "m")
+"""That is no limit at all (inferred)."""
 
 
 def _settle_height(thing: Obstacle | Furniture) -> None:
@@ -64,6 +62,12 @@ class Obstacle:
         Seats that perceive it, out of ``"human"`` and ``"automation"``, once it is in sight.
     height : float, optional
         m; without it the usual one of its kind (`cowalk.sim.world.heights`).
+
+    Raises
+    ------
+    InputError
+        If a place is outside of `PLACE` or a size outside of `SIZE`, a puddle has a height, or a
+        seat is unknown.
     """
 
     x: float
@@ -74,12 +78,13 @@ class Obstacle:
     height: float | None = None
 
     def __post_init__(self) -> None:
-        require_positive(self, "radius", "height")
-        check_seats(self.seen_by)
+        require_ranges(self, {"x": PLACE, "y": PLACE, "radius": SIZE, "height": SIZE})
+        require_text("kind", self.kind)
+        require_seats(self)
         if self.solid:
             _settle_height(self)
-        elif self.height is not None:
-            raise InputError(f"height = {self.height} m: a puddle has none; leave it out")
+        what = "a puddle has none; leave it out"
+        require(self.solid or self.height is None, "height", self.height, what, "m")
 
     @property
     def solid(self) -> bool:
@@ -111,6 +116,12 @@ class Furniture:
         What it is: a table, a cupboard.
     seen_by : tuple of str
         Seats that perceive it once it is in sight.
+
+    Raises
+    ------
+    InputError
+        If a place is outside of `PLACE`, a size outside of `SIZE`, the direction outside of
+        `ANGLE`, or a seat is unknown.
     """
 
     x: float
@@ -123,8 +134,10 @@ class Furniture:
     seen_by: tuple[str, ...] = SEATS
 
     def __post_init__(self) -> None:
-        require_positive(self, "length", "width", "height")
-        check_seats(self.seen_by)
+        places = dict.fromkeys(("x", "y"), PLACE) | {"yaw": ANGLE}
+        require_ranges(self, places | dict.fromkeys(("length", "width", "height"), SIZE))
+        require_text("kind", self.kind)
+        require_seats(self)
         _settle_height(self)
 
     @property
@@ -135,15 +148,19 @@ class Furniture:
 
 @dataclass(frozen=True)
 class ViewRange:
-    """How far each seat sees, m, from head or front sensor; without limit unless given."""
+    """How far each seat sees, m, from head or front sensor; without limit unless given.
+
+    Raises
+    ------
+    InputError
+        If one is outside of `SIGHT`, and not infinite.
+    """
 
     human: float = math.inf
     automation: float = math.inf
 
     def __post_init__(self) -> None:
-        for seat in SEATS:
-            if not getattr(self, seat) > 0.0:
-                raise InputError(f"{seat} = {getattr(self, seat)} m: it must be above 0")
+        require_ranges(self, dict.fromkeys(SEATS, SIGHT))
 
 
 @dataclass(frozen=True)
@@ -168,7 +185,7 @@ class World:
     Raises
     ------
     InputError
-        If a number of a place or a size is not finite.
+        If a part is of the wrong kind, or the start not a place within `PLACE` and `ANGLE`.
     """
 
     path: Path
@@ -181,6 +198,11 @@ class World:
     view_range: ViewRange = ViewRange()
 
     def __post_init__(self) -> None:
-        for name in ("path", "corridor", "obstacles", "start", "furniture", "pedestrians", "walls"):
-            for fault in _not_finite(name, getattr(self, name)):
-                raise InputError(f"{fault}: must be finite")
+        require_instance("path", self.path, Path, "a Path")
+        if self.corridor is not None:
+            require_instance("corridor", self.corridor, Corridor, "a Corridor, or None,")
+        require_instance("view_range", self.view_range, ViewRange, "a ViewRange")
+        things = {"obstacles": Obstacle, "furniture": Furniture}
+        require_instances(self, things | {"pedestrians": Pedestrian, "walls": Wall})
+        require_entries(self, ("start",), 3, PLACE)
+        require_range(("start", 2), self.start[2], ANGLE)

@@ -5,9 +5,25 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-import numpy as np
-
 from cowalk.sim.basics.errors import InputError
+from cowalk.sim.basics.lists import require_pairs
+from cowalk.sim.basics.validators import Range, require_choices, require_ranges
+
+RANGES: dict[str, Range] = {
+    "period": (1e-3, 3600.0, "s"),
+    "horizon": (1e-3, 1000.0, "s"),
+    "distance_weight": (1e-6, 1e6, "1/m^2"),
+    "speed_weight": (0.0, 1e6, "s^2/m^2"),
+    "turn_weight": (0.0, 1e6, "s^2/rad^2"),
+    "force_window": (0.0, 3600.0, "s"),
+}
+RANGES_OF_PAIRS: dict[str, Range] = {
+    "force_max": (1e-3, 1e4, "N"),
+    "force_threshold": (0.0, 1e4, "N"),
+    "sensitivity": (0.0, 100.0, ""),
+}
+"""What two can negotiate with, and far more (inferred)."""
+DIMENSIONS = ("omega", "both")
 
 
 @dataclass(frozen=True)
@@ -41,7 +57,7 @@ class NegotiationSettings:
     Raises
     ------
     InputError
-        If a value is out of its range.
+        If a value is outside of `RANGES` or `RANGES_OF_PAIRS`, or the dimensions are unknown.
     """
 
     dimensions: Literal["omega", "both"] = "omega"
@@ -56,15 +72,9 @@ class NegotiationSettings:
     sensitivity: tuple[float, float] = (0.5, 0.5)
 
     def __post_init__(self) -> None:
-        for names, holds, what in (
-            (("period", "horizon", "distance_weight", "force_max"), np.greater, "above 0"),
-            (("speed_weight", "turn_weight", "force_window"), np.greater_equal, "at least 0"),
-            (("force_threshold", "sensitivity"), np.greater_equal, "at least 0"),
-        ):
-            for name in names:
-                value = getattr(self, name)
-                if not np.all(holds(value, 0.0)):
-                    raise InputError(f"{name} = {value}: must be {what}")
+        require_choices(self, {"dimensions": DIMENSIONS})
+        require_ranges(self, RANGES, lanes=True)
+        require_pairs(self, RANGES_OF_PAIRS, axis=-1)
 
     def steps(self, control_period: float) -> int:
         """Return the number of control steps between negotiations.
@@ -79,6 +89,7 @@ class NegotiationSettings:
             raise InputError(
                 f"automation.negotiation.period = {self.period} s is not a whole multiple of the "
                 f"control period {control_period:g} s; "
-                f"{max(1, round(ratio)) * control_period:g} would be"
+                f"{max(1, round(ratio)) * control_period:g} would be",
+                ("automation", "negotiation", "period"),
             )
         return round(ratio)

@@ -5,19 +5,31 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from cowalk.sim.basics.errors import InputError
+from cowalk.sim.basics.errors import InputError, Step
+from cowalk.sim.basics.lists import require_entries, require_instances
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
-from cowalk.sim.basics.path import Path
-from cowalk.sim.basics.situation import Situation
+from cowalk.sim.basics.path import PLACE, Path
+from cowalk.sim.basics.situation import REACH, Situation
+from cowalk.sim.basics.validators import Range, require_instance, require_ranges
 
 from ...basics.elementwise import FLOATS, Elementwise, Value, components, elementwise
 from .detour import detour, rows_in_use
 from .minimum_jerk import Movement
 from .route import Route, Triple
 
-FASTEST = 5.0
-"""Pace that anybody may want beside a robot, m/s (inferred)."""
+PACE: Range = (0.0, 5.0, "m/s")
+"""That anybody may want beside a robot (inferred)."""
+RANGES: dict[str, Range] = {
+    "pace": PACE,
+    "margin": (0.0, 10.0, "m"),
+    "anticipation": (0.0, 1000.0, "m"),
+    "lookahead": (0.01, 100.0, "m"),
+    "easing": (0.01, 100.0, "m"),
+}
+"""From a hand's breadth to a large hall (inferred)."""
+OF_CHANGES: dict[str, Range] = {"at_time": (0.0, 86400.0, "s"), "at_station": PLACE, "pace": PACE}
+"""For a day at most (inferred)."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,8 +53,8 @@ class ChangeOfMind:
     Raises
     ------
     InputError
-        If both or none of time and place are given, nothing changes, or a time or pace is
-        negative: every fault.
+        If a number is outside of `OF_CHANGES`, or the path of another kind; if both or none of
+        time and place are given, or nothing changes: every fault.
     """
 
     at_time: float | None = None
@@ -51,17 +63,20 @@ class ChangeOfMind:
     path: Path | None = None
 
     def __post_init__(self) -> None:
-        faults = []
+        faults: list[str] = []
+        at: tuple[Step, ...] = ()
+        try:
+            require_ranges(self, OF_CHANGES)
+            if self.path is not None:
+                require_instance("path", self.path, Path)
+        except InputError as error:
+            faults, at = [str(error)], error.at
         if (self.at_time is None) == (self.at_station is None):
             faults.append("give either at_time (s) or at_station (m)")
         if self.pace is None and self.path is None:
             faults.append("nothing changes: give pace (m/s), path, or both")
-        if self.at_time is not None and not self.at_time >= 0.0:
-            faults.append(f"at_time = {self.at_time}: must not be negative")
-        if self.pace is not None and not self.pace >= 0.0:
-            faults.append(f"pace = {self.pace}: must not be negative; 0 is the wish to stop")
         if faults:
-            raise InputError("; ".join(faults))
+            raise InputError("; ".join(faults), at)
 
 
 @dataclass(frozen=True)
@@ -91,7 +106,8 @@ class IntentionSettings:
     Raises
     ------
     InputError
-        If a distance is negative, the pace none to walk at, or the lookahead or the easing 0.
+        If a number is outside of `RANGES`, the extent not 3 within `REACH`, or a path or a
+        change of another kind.
     """
 
     pace: float | None = None
@@ -104,16 +120,12 @@ class IntentionSettings:
     changes: tuple[ChangeOfMind, ...] = ()
 
     def __post_init__(self) -> None:
-        if self.pace is not None and not 0.0 <= self.pace <= FASTEST:
-            raise InputError(f"pace = {self.pace} m/s: must lie between 0 and {FASTEST:g} m/s")
-        for name in ("margin", "anticipation"):
-            if not getattr(self, name) >= 0.0:
-                raise InputError(f"{name} = {getattr(self, name)}: must not be negative")
-        for name in ("lookahead", "easing"):
-            if not getattr(self, name) > 0.0:
-                raise InputError(f"{name} = {getattr(self, name)} m: must be above 0")
-        if self.extent is not None and not min(self.extent) >= 0.0:
-            raise InputError(f"extent = {self.extent}: none may be negative")
+        require_ranges(self, RANGES)
+        if self.extent is not None:
+            require_entries(self, ("extent",), 3, REACH)
+        if self.path is not None:
+            require_instance("path", self.path, Path)
+        require_instances(self, {"changes": ChangeOfMind})
 
 
 class Outlook(NamedTuple):

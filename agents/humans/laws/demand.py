@@ -12,14 +12,15 @@ s = 0 lets go, s = 1 insists fully. Models differ in how s and p_H move.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from cowalk.sim.basics.errors import InputError
+from cowalk.sim.basics.lists import require_pairs
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
 from cowalk.sim.basics.situation import Situation
+from cowalk.sim.basics.validators import Range, require_instance, require_ranges
 
 from ...basics.elementwise import Elementwise, Value, components
 from ...basics.protocols import Truth
@@ -28,24 +29,14 @@ from ..intention.intention import Intention, IntentionSettings, Outlook
 Pair = tuple[float, float]
 
 
-def require(part: object, name: str, holds: bool, what: str) -> None:
-    """Raise `InputError` naming a parameter of a part and its value, unless a condition holds."""
-    if not holds:
-        raise InputError(f"{name} = {getattr(part, name)}: {what}")
-
-
-def require_share(part: object, *names: str) -> None:
-    """Raise `InputError` unless each of a part's parameters, a number or a pair, is in [0, 1]."""
-    for name in names:
-        value = np.asarray(getattr(part, name))
-        within = bool(((value >= 0.0) & (value <= 1.0)).all())
-        require(part, name, within, "must lie in [0, 1]")
-
-
-def require_positive(part: object, *names: str) -> None:
-    """Raise `InputError` unless each of a part's parameters, a number or a pair, is above 0."""
-    for name in names:
-        require(part, name, bool(np.all(np.asarray(getattr(part, name)) > 0.0)), "must be above 0")
+FORCE_MAX: Range = (1e-3, 1e4, "N")
+GAIN: Range = (1e-3, 1e3, "")
+TIME: Range = (1e-3, 86400.0, "s")
+"""Of what takes a while: from less than a control period to a day."""
+TOLERANCE: Range = (1e-6, 10.0, "")
+STEERING: Range = (1e-3, 1e3, "1/s")
+REACH: Range = (0.0, 10.0, "m")
+"""All of these ranges are inferred, and generous."""
 
 
 @dataclass(kw_only=True)
@@ -60,6 +51,11 @@ class DemandingHuman(ABC):
         Share of the largest force at full stubbornness and a disagreement as large as the
         upper bound of the twist, 1. Inferred.
     intention : IntentionSettings
+
+    Raises
+    ------
+    InputError
+        If a number is outside of `FORCE_MAX` or `GAIN`, or the intention of another kind.
     """
 
     force_max: Pair = (7.5, 7.5)
@@ -67,11 +63,9 @@ class DemandingHuman(ABC):
     intention: IntentionSettings = field(default_factory=IntentionSettings)
 
     def __post_init__(self) -> None:
-        for item in fields(self):
-            pair = isinstance(item.default, tuple)
-            whole = not pair or np.shape(getattr(self, item.name))[:1] == (2,)
-            require(self, item.name, whole, "must be two numbers, for v and for omega")
-        require_positive(self, "force_max", "gain")
+        require_pairs(self, {"force_max": FORCE_MAX})
+        require_ranges(self, {"gain": GAIN}, lanes=True)
+        require_instance("intention", self.intention, IntentionSettings)
 
     @abstractmethod
     def stubbornness(self, m: Elementwise, i: int, disagreement: Value) -> Value:

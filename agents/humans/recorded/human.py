@@ -7,14 +7,24 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
+from cowalk.sim.basics.lists import require_pairs
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
 from cowalk.sim.basics.situation import Situation
+from cowalk.sim.basics.validators import Range, require_choices, require_instance, require_ranges
 
 from ...basics.protocols import Truth
-from ..laws.demand import Pair, prescribed_truth, require, require_positive
+from ..laws.demand import FORCE_MAX, GAIN, Pair, prescribed_truth
 from .recording import Columns, read_recording, resample
 from .units import Units
+
+RANGES: dict[str, Range] = {"start": (0.0, 86400.0, "s"), "scale": (-1000.0, 1000.0, "")}
+"""Inferred."""
+CHOICES = {
+    "gaps": ("refuse", "hold"),
+    "resample": ("mean", "linear", "hold"),
+    "at_end": ("loop", "stop"),
+}
 
 
 @dataclass(kw_only=True)
@@ -68,10 +78,11 @@ class RecordedHuman:
     gain: float = 2.0
 
     def __post_init__(self) -> None:
-        require_positive(self, "force_max", "gain")
-        require(self, "gaps", self.gaps in ("refuse", "hold"), "must be refuse or hold")
-        require(self, "start", self.start >= 0.0, "must not be negative")
-        require(self, "scale", bool(np.isfinite(self.scale)), "must be finite")
+        require_instance("columns", self.columns, Columns)
+        require_instance("units", self.units, Units)
+        require_choices(self, CHOICES)
+        require_pairs(self, {"force_max": FORCE_MAX})
+        require_ranges(self, RANGES | {"gain": GAIN}, lanes=True)
         self._time, self._force = read_recording(self.file, self.columns, self.units, self.gaps)
 
     def reset(self, rng: np.random.Generator, situation: Situation) -> None:

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
 
-from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.registry import did_you_mean
+from cowalk.sim.basics.validators import require, require_text
 
-from .tables import at, first_line, read_table
+from .tables import faulty, first_line, read_table
 from .units import FORCE_UNITS, TIME_UNITS, Units, suits, unit_of
 
 _GAP = (5.0, 0.05)
@@ -31,11 +32,20 @@ class Columns:
     ----------
     time, fx, fy : str
         Time, and force on the base forward and to the left.
+
+    Raises
+    ------
+    InputError
+        If one is no text.
     """
 
     time: str = "t_s"
     fx: str = "fx_n"
     fy: str = "fy_n"
+
+    def __post_init__(self) -> None:
+        for name in ("time", "fx", "fy"):
+            require_text(name, getattr(self, name), "the name of a column")
 
 
 def read_recording(
@@ -68,6 +78,7 @@ def read_recording(
         unit, a value is missing or not finite, time does not rise, or rows are missing: file,
         column and row.
     """
+    require(isinstance(file, str | os.PathLike), "file", file, "the path of a file is expected")
     path = Path(file).expanduser()
     table, stated = read_table(path)
     first_row = 2 if path.suffix == ".csv" else 0  # a CSV file's line, the header being line 1
@@ -82,9 +93,9 @@ def read_recording(
         values[role] = _numbers(path, name, column, first_row)
     lengths = {names[role]: len(column) for role, column in values.items()}
     if len(set(lengths.values())) > 1:
-        raise InputError(f"{at(path)}: columns differ in length: {lengths}")
+        raise faulty(path, f"columns differ in length: {lengths}")
     if len(values["time"]) < 2:
-        raise InputError(f"{at(path)}: holds {len(values['time'])} rows; at least 2 are needed")
+        raise faulty(path, f"holds {len(values['time'])} rows; at least 2 are needed")
     time = values["time"] * TIME_UNITS[used["time"]]
     force = np.stack([values[role] * FORCE_UNITS[used[role]] for role in ("fx", "fy")], axis=-1)
     _check_plausible(path, names, used, time, force, first_row)
@@ -135,9 +146,9 @@ def _column(path: Path, name: str, table: dict[str, Any], suited: list[str]) -> 
         cure = did_you_mean(name, list(table), suited)
         if all(known.isdecimal() for known in table):
             cure = 'the array has no names, say columns: {time: "0", fx: "1", fy: "2"}'
-        raise InputError(f"{at(path)}: no column {name!r}; {cure}")
+        raise faulty(path, f"no column {name!r}; {cure}")
     if table[name] is None:
-        raise InputError(f"{at(path)}: more than one column is called {name!r}; rename one")
+        raise faulty(path, f"more than one column is called {name!r}; rename one")
     return table[name]
 
 
@@ -152,10 +163,11 @@ def _without_gaps(
         return time, force
     if gaps == "refuse":
         row = before[np.argmax(steps[before])]
-        raise InputError(
-            f"{at(path)}: nothing for {steps[row]:.3g} s from {time[row]:g} s on (row "
+        raise faulty(
+            path,
+            f"nothing for {steps[row]:.3g} s from {time[row]:g} s on (row "
             f"{row + first}, {len(before)} such gaps, rows are {usual:g} s apart); cut the "
-            "recording there, or say gaps: hold to keep the last force"
+            "recording there, or say gaps: hold to keep the last force",
         )
     # The last force, up to one usual step before the next row.
     after = before + 1
@@ -170,16 +182,15 @@ def _numbers(path: Path, name: str, column: Any, first_row: int) -> Array:
     try:
         values = np.asarray(column).astype(float)
     except (ValueError, TypeError) as error:
-        raise InputError(
-            f"{at(path)}: column {name!r} does not hold numbers: {first_line(error)}"
-        ) from error
+        raise faulty(path, f"column {name!r} does not hold numbers: {first_line(error)}") from error
     if values.ndim != 1:
-        raise InputError(f"{at(path)}: column {name!r} has shape {values.shape}; one value a row")
+        raise faulty(path, f"column {name!r} has shape {values.shape}; one value a row")
     wrong = np.flatnonzero(~np.isfinite(values))
     if len(wrong):
-        raise InputError(
-            f"{at(path)}: column {name!r} has no finite number in row {wrong[0] + first_row} "
-            f"({len(wrong)} such rows); fill or cut the gap"
+        raise faulty(
+            path,
+            f"column {name!r} has no finite number in row {wrong[0] + first_row} "
+            f"({len(wrong)} such rows); fill or cut the gap",
         )
     return values
 
@@ -191,21 +202,24 @@ def _check_plausible(
     falling = np.flatnonzero(steps <= 0.0)
     if len(falling):
         row = falling[0] + 1
-        raise InputError(
-            f"{at(path)}: column {names['time']!r} does not rise in row {row + first}: "
-            f"{time[row]:g} s after {time[row - 1]:g} s"
+        raise faulty(
+            path,
+            f"column {names['time']!r} does not rise in row {row + first}: "
+            f"{time[row]:g} s after {time[row - 1]:g} s",
         )
     step = np.median(steps)
     if not _STEPS[0] <= step <= _STEPS[1]:
-        raise InputError(
-            f"{at(path)}: rows are {step:g} s apart with units.time = {units['time']!r}; is the "
-            f"column {names['time']!r} in another unit?"
+        raise faulty(
+            path,
+            f"rows are {step:g} s apart with units.time = {units['time']!r}; is the "
+            f"column {names['time']!r} in another unit?",
         )
     row, dimension = np.unravel_index(np.argmax(np.abs(force)), force.shape)
     role = "fx" if dimension == 0 else "fy"
     if abs(force[row, dimension]) > _STRONGEST:
-        raise InputError(
-            f"{at(path)}: column {names[role]!r} reads {force[row, dimension]:g} N in row "
+        raise faulty(
+            path,
+            f"column {names[role]!r} reads {force[row, dimension]:g} N in row "
             f"{row + first} with units.force = {units[role]!r}, more than anybody "
-            "pushes; is it in another unit?"
+            "pushes; is it in another unit?",
         )

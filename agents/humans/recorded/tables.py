@@ -17,9 +17,9 @@ Table = tuple[dict[str, Any], dict[str, str]]
 _SEPARATORS = {";": "semicolons", "\t": "tabs"}
 
 
-def at(path: Path) -> str:
-    """Return how a message names a recording's file."""
-    return f"file = {str(path)!r}"
+def faulty(path: Path, what: str) -> InputError:
+    """Return the error of a recording's file."""
+    return InputError(f"file = {str(path)!r}: {what}", ("file",))
 
 
 def first_line(error: Exception) -> str:
@@ -37,9 +37,9 @@ def read_table(path: Path) -> Table:
     """
     reader = _READERS.get(path.suffix)
     if reader is None:
-        raise InputError(f"{at(path)}: ends in none of {', '.join(_READERS)}")
+        raise faulty(path, f"ends in none of {', '.join(_READERS)}")
     if not path.is_file():
-        raise InputError(f"{at(path)}: there is no such file")
+        raise faulty(path, "there is no such file")
     return reader(path)
 
 
@@ -60,18 +60,19 @@ def _read_csv(path: Path) -> Table:
         header.decode("utf-8")
         other = next((name for sign, name in _SEPARATORS.items() if sign.encode() in header), None)
         if other and b"," not in header:
-            raise InputError(
-                f"{at(path)}: its columns are separated by {other}; save it with commas between "
-                "columns, and points in numbers"
+            raise faulty(
+                path,
+                f"its columns are separated by {other}; save it with commas between "
+                "columns, and points in numbers",
             )
         return _columns(csv.read_csv(path)), {}
     except UnicodeDecodeError as error:
-        raise InputError(
-            f"{at(path)}: its header is not UTF-8 (byte {header[error.start]:#04x}); save the file "
-            "as UTF-8"
+        raise faulty(
+            path,
+            f"its header is not UTF-8 (byte {header[error.start]:#04x}); save the file as UTF-8",
         ) from error
     except ArrowInvalid as error:
-        raise InputError(f"{at(path)}: cannot be read as CSV: {first_line(error)}") from error
+        raise faulty(path, f"cannot be read as CSV: {first_line(error)}") from error
 
 
 def _read_parquet(path: Path) -> Table:
@@ -80,7 +81,7 @@ def _read_parquet(path: Path) -> Table:
     try:
         table = parquet.read_table(path)
     except (ArrowInvalid, OSError) as error:
-        raise InputError(f"{at(path)}: cannot be read as Parquet: {first_line(error)}") from error
+        raise faulty(path, f"cannot be read as Parquet: {first_line(error)}") from error
     units = {
         field.name: field.metadata[b"unit"].decode()
         for field in table.schema
@@ -102,11 +103,11 @@ def _read_numpy(path: Path) -> Table:
             what = "holds Python objects; save arrays of numbers"
         else:
             what = f"is damaged, or no {path.suffix} file; write it anew with np.save or np.savez"
-        raise InputError(f"{at(path)}: cannot be read as NumPy: it {what}") from error
+        raise faulty(path, f"cannot be read as NumPy: it {what}") from error
     if data.dtype.names:
         return {name: data[name] for name in data.dtype.names}, {}
     if data.ndim != 2:
-        raise InputError(f"{at(path)}: an array of shape {data.shape}; (rows, columns) is needed")
+        raise faulty(path, f"an array of shape {data.shape}; (rows, columns) is needed")
     return {str(i): column for i, column in enumerate(data.T)}, {}
 
 

@@ -9,8 +9,9 @@ from typing import Literal
 
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.registry import did_you_mean
+from cowalk.sim.basics.validators import require
 
-from .tables import at
+from .tables import faulty
 
 TIME_UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 """Known units of time, in s."""
@@ -52,8 +53,8 @@ class Units:
     def __post_init__(self) -> None:
         for name, known in (("time", TIME_UNITS), ("force", FORCE_UNITS)):
             unit = getattr(self, name)
-            if unit is not None and unit not in known:
-                raise InputError(f"units.{name} = {unit!r}: {did_you_mean(unit, list(known))}")
+            right = unit is None or (isinstance(unit, str) and unit in known)
+            require(right, name, unit, did_you_mean(str(unit), list(known)))
 
 
 def suits(path: Path, quantity: str, name: str, units: Units, stated: dict[str, str]) -> bool:
@@ -95,20 +96,21 @@ def unit_of(path: Path, quantity: str, name: str, units: Units, stated: dict[str
         if found is None and word.lower() in _WORDS:
             found = word
         elif found is None and word and end.re is _BRACKET and wanted is None:
-            raise InputError(
-                f"{at(path)}: column {name!r} is in {word!r}; known: {', '.join(known)}; if that "
-                f"is no unit, say units.{quantity}"
+            raise faulty(
+                path,
+                f"column {name!r} is in {word!r}; known: {', '.join(known)}; if that "
+                f"is no unit, say units.{quantity}",
             )
     if found is None:
         return wanted or next(iter(known))
     if found not in known:
-        raise InputError(
-            f"{at(path)}: column {name!r} is in {found!r}; known: {', '.join(known)}; map another "
-            "column"
+        raise faulty(
+            path, f"column {name!r} is in {found!r}; known: {', '.join(known)}; map another column"
         )
     if wanted not in (None, found):
-        raise InputError(
-            f"{at(path)}: column {name!r} is in {found!r}, the scenario says {wanted!r}; leave "
-            f"units.{quantity} out, or map another column"
+        raise faulty(
+            path,
+            f"column {name!r} is in {found!r}, the scenario says {wanted!r}; leave "
+            f"units.{quantity} out, or map another column",
         )
     return found

@@ -48,7 +48,12 @@ def test_they_stay_when_the_model_is_swapped_and_can_be_set_from_outside(walk):
     [
         ("- tremor", "- tremro", "human.imperfections.1.name", "did you mean 'tremor'"),
         ("delay: 0.2", "dleay: 0.2", "human.imperfections.0.parameters.dleay", "'delay'"),
-        ("delay: 0.2", "delay: -0.2", "human.imperfections.0.parameters.delay", "[0, 5] s"),
+        (
+            "delay: 0.2",
+            "delay: -0.2",
+            "human.imperfections.0.parameters.delay",
+            "between 0 and 5 s",
+        ),
         ("delay: 0.2", "human: steady", "human.imperfections.0.parameters.human", "set this at"),
         (
             "- tremor",

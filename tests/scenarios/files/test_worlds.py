@@ -32,13 +32,13 @@ def test_every_fault_of_a_world_is_named_at_its_line(folder):
     file.write_text(BROKEN)
     found = {fault.line: str(fault) for fault in faults(file)}
     for line, words in {
-        5: "doorways.0 reaches from 0.3 to 1.3 m, beyond the corridor's 2 m",
-        9: "length = 0.0 m: it must be above 0",
-        12: "waypoints: give at least two points",
+        7: "doorways.0 reaches from 0.3 to 1.3 m, beyond the corridor's 2 m",
+        9: "length = 0.0 m: must lie between 0.001 and 1000 m",
+        12: "give at least two points",
         13: "world.pedestrians.1.waypoints.1.1 = 'a': a number is expected, not text",
         14: "seen_by = ['robot']: its entries are human or automation",
         15: "end = [1.0, 1.0]: it is where the wall starts",
-        16: "human = 0.0 m: it must be above 0",
+        16: "human = 0.0 m: must lie between 0.01 and",
     }.items():
         assert words in found.get(line, ""), (line, found)
     assert any("did you mean 'length'?" in str(fault) for fault in faults(file))

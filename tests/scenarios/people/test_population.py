@@ -127,7 +127,7 @@ def test_the_measured_gait_is_that_of_the_healthy(shipped):
         ("gain:", "gian:", r":7: .*gian: unknown key; did you mean 'gain'"),
         ("norm, loc", "nrom, loc", r":7: .*'nrom' is no distribution.*did you mean 'norm'"),
         (", within: [1.0, 3.0]", "", r"norm has no end; give within: \[LOW, HIGH\]"),
-        ("within: [1.0,", "within: [-1.0,", r":7: .*gain = -1.0: must be above 0"),
+        ("within: [1.0,", "within: [-1.0,", r":7: .*gain = -1.0: must lie between"),
         ("a: 2,", "a: 0,", r"beta cannot have .*'a': 0"),
         ("a: 2,", "alpha: 2,", r"alpha is no parameter of beta"),
         ("b: 3", "b: three", r"b = 'three': a number is expected"),

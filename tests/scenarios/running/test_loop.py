@@ -13,6 +13,10 @@ from cowalk.scenarios import (
     seeds_of,
     situation_of,
 )
+from cowalk.scenarios.files import validation
+from cowalk.scenarios.trace import trace as trace_module
+from cowalk.scenarios.trace.trace import Trace
+from cowalk.sim import InputError
 
 
 def walked(scenario):
@@ -163,6 +167,42 @@ def test_what_automation_and_observer_add_becomes_columns(tmp_path, monkeypatch)
     np.testing.assert_allclose(trace["urgency"][instants], 0.05 * instants)
     held = np.repeat(trace["urgency"][instants], 14)[:100]
     np.testing.assert_array_equal(trace["urgency"], held)
+
+
+ADDING = ["automation=talking:Talker", "plant=unicycle", "duration=5"]
+
+
+def test_expectations_may_speak_of_columns_that_parts_add(tmp_path, monkeypatch):
+    text = FAULTY.replace('extras={"hurry": 1.0}', 'extras={"urgency": negotiation.time}')
+    (tmp_path / "talking.py").write_text(text)
+    monkeypatch.syspath_prepend(tmp_path)
+    holds, fails = "always (urgency < 5.0)", "always (urgency < 1.0)"
+    result = run(load("puddle", [*ADDING, f"expect={{soon: '{holds}', sooner: '{fails}'}}"]))
+    assert [verdict.passed for verdict in result.verdicts] == [True, False]
+    with pytest.raises(InputError, match="urgenzy"):
+        load("puddle", [*ADDING, "expect={soon: 'always (urgenzy < 5.0)'}"])
+
+
+def test_a_column_that_every_trace_has_cannot_be_added(tmp_path, monkeypatch):
+    text = FAULTY.replace('columns = {"urgency": "1"}', 'columns = {"clearance": "m"}')
+    (tmp_path / "clashing.py").write_text(text)
+    monkeypatch.syspath_prepend(tmp_path)
+    with pytest.raises(InputError, match="column 'clearance': every trace has it"):
+        load("puddle", ["automation=clashing:Talker", "expect={}"])
+
+
+def test_keys_and_columns_that_were_renamed_are_refused_with_the_new_name(tmp_path, monkeypatch):
+    monkeypatch.setitem(validation.RENAMED, "automation.negotiation.epoch", "period")
+    with pytest.raises(InputError, match=r"negotiation\.epoch is called period now"):
+        load("puddle", ["automation.negotiation.epoch=0.7"])
+    trace = run(load("puddle", ["plant=unicycle", "duration=1", "expect={}"])).trace
+    trace.write(tmp_path / "trace.parquet")
+    monkeypatch.setitem(trace_module.RENAMED, "clearance", "gap")
+    with pytest.raises(InputError, match="column 'clearance' is called 'gap' now"):
+        Trace.read(tmp_path / "trace.parquet")
+    monkeypatch.setattr(trace_module, "FORMAT", 1)
+    with pytest.raises(InputError, match="written in form 2, this cowalk reads up to 1"):
+        Trace.read(tmp_path / "trace.parquet")
 
 
 def test_rows_say_what_the_sensor_made_of_the_true_wrench_and_what_wheels_are_asked():

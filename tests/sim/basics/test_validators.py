@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.motion import TwistBounds
+from cowalk.sim.basics.parameters import parameters
 from cowalk.sim.basics.path import Path
 from cowalk.sim.basics.rates import Rates
-from cowalk.sim.basics.validators import parameters
 from cowalk.sim.body.anthropometry import BodyParameters
 from cowalk.sim.body.gait import GaitParameters
 from cowalk.sim.body.grip import GripParameters
@@ -199,3 +199,24 @@ def test_a_sensor_may_have_as_many_faults_as_its_ranges_allow():
     SensorParameters(rate=1.0, range=1.0, resolution=1.0, cross_talk=0.5, low_pass=0.1)
     SensorParameters(rate=0, low_pass=0, range=math.inf, bias=-1e4, drift=(1e5, -1e5))
     SensorParameters(cross_talk=((-1.0, 0.0), (0.0, -1.0)))  # two dead channels
+
+
+@pytest.mark.parametrize(
+    ("parameters", "at"),
+    [
+        ({"robot": {"handle": "gripp"}}, ("robot", "handle")),
+        ({"robot": {"urdf": "nowhere.urdf"}}, ("robot", "urdf")),
+        ({"robot": {"urdf": __file__}}, ("robot", "urdf")),
+        ({"mount": {"position": (0.0, 9.0, 0.0)}}, ("mount", "position")),
+        ({"mount": {"rpy": (0.0, 0.0, 99.0)}}, ("mount", "rpy", 2)),
+        ({"drive": {"gain_forward": 1e6}}, ("drive", "gain_forward")),
+        ({"drive": {"kind": "wheels", "wheel_track": 2.0}}, ("drive", "wheel_track")),
+        ({"walker": {"stiffness": 1e8}}, ("walker", "stiffness")),
+        ({"gait": {"percentile": 99.0}}, ("gait", "percentile")),
+        ({"body": {"hands": 2}}, ("body", "hands")),
+    ],
+)
+def test_an_error_carries_its_place_as_data(parameters, at):
+    with pytest.raises(InputError, match=rf"^{'.'.join(map(str, at))}\b") as refused:
+        BulletPlant(Rates(), **parameters)
+    assert refused.value.at == at

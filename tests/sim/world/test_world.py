@@ -258,15 +258,20 @@ def test_nonsense_is_refused(thing, kwargs, named):
 
 
 @pytest.mark.parametrize(
-    ("parts", "named"),
+    ("build", "at"),
     [
-        ({"obstacles": (Obstacle(1.0, 2.0, 0.3), Obstacle(math.nan, 0.0, 0.3))}, "obstacles.1.x"),
-        ({"furniture": (Furniture(1.0, 2.0, 1.0, 1.0, math.inf),)}, "furniture.0.yaw = inf"),
-        ({"walls": (Wall((0.0, 1.0), (3.0, math.nan)),)}, "walls.0.end.1 = nan"),
-        ({"corridor": Corridor(3.0, (Doorway(-math.inf, 1.0),))}, "corridor.doorways.0.x = -inf"),
-        ({"start": (0.0, math.nan, 0.0)}, "start.1 = nan"),
+        (lambda: Obstacle(math.nan, 0.0, 0.3), ("x",)),
+        (lambda: Furniture(1.0, 2.0, 1.0, 1.0, math.inf), ("yaw",)),
+        (lambda: Wall((0.0, 1.0), (3.0, math.nan)), ("end",)),
+        (lambda: Doorway(-math.inf, 1.0), ("x",)),
+        (lambda: Path(((0.0, 0.0), (math.nan, 1.0))), ("points", 1, 0)),
+        (lambda: Pedestrian(((0.0, 0.0), (1.0, 3e6))), ("waypoints", 1, 1)),
+        (lambda: World(PATH, start=(0.0, math.nan, 0.0)), ("start",)),
+        (lambda: World(PATH, obstacles=(Obstacle(1.0, 2.0, 0.3), 3)), ("obstacles", 1)),
+        (lambda: Corridor(3e6), ("width",)),
     ],
 )
-def test_a_place_that_is_not_finite_is_named(parts, named):
-    with pytest.raises(InputError, match=f"^{named}.*: must be finite$"):
-        World(PATH, **parts)
+def test_a_place_that_is_no_place_is_named(build, at):
+    with pytest.raises(InputError, match="^" + ".".join(map(str, at))) as refused:
+        build()
+    assert refused.value.at == at

@@ -180,7 +180,7 @@ def test_a_batch_changes_its_mind_one_by_one():
         (lambda: ChangeOfMind(pace=0.3), "either at_time"),
         (lambda: ChangeOfMind(at_time=1.0, at_station=1.0, pace=0.3), "either at_time"),
         (lambda: ChangeOfMind(at_time=1.0), "nothing changes"),
-        (lambda: ChangeOfMind(pace=-1.0), r"either at_time .*; pace = -1\.0: must not be negative"),
+        (lambda: ChangeOfMind(pace=-1.0), r"pace = -1\.0 m/s: must lie .*; .*either at_time"),
         (lambda: ChangeOfMind(at_time=-1.0, pace=0.3), r"at_time = -1\.0"),
         (lambda: ChangeOfMind(at_time=1.0, pace=-0.3), r"pace = -0\.3"),
         (lambda: IntentionSettings(lookahead=0.0), r"lookahead = 0\.0"),

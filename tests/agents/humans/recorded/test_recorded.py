@@ -265,7 +265,7 @@ def test_an_array_without_names_is_told_how_to_name_columns(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("unit", "message"), [({"force": "lb"}, "units.force = 'lb'; did you mean 'lbf'")]
+    ("unit", "message"), [({"force": "lb"}, "^force = 'lb'; did you mean 'lbf'")]
 )
 def test_an_unknown_unit_is_refused(unit, message):
     with pytest.raises(InputError, match=message.replace(";", ".")):
