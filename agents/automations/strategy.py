@@ -21,6 +21,7 @@ from cowalk.sim.basics.errors import PartError
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
 from cowalk.sim.basics.situation import Situation
+from cowalk.sim.basics.validators import require_instance, require_part
 
 from ..basics.protocols import Belief
 from .negotiation import Agreement, Negotiation
@@ -49,6 +50,11 @@ class Strategy(ABC):
     columns : mapping of str to str
         Units, by name, of numbers that `Agreement.extras` brings; a class declares its own, an
         object has its observer's as well. They become columns of the trace.
+
+    Raises
+    ------
+    InputError
+        If the settings are of another kind, or a part lacks a method.
     """
 
     columns: Mapping[str, str] = MappingProxyType({})
@@ -60,6 +66,12 @@ class Strategy(ABC):
         observer: Observer | None = None,
         smoother: Smoother | None = None,
     ) -> None:
+        if negotiation is not None:
+            require_instance("negotiation", negotiation, NegotiationSettings)
+        parts = {"front_end": front_end, "observer": observer, "smoother": smoother}
+        for name, given in parts.items():
+            if given is not None:
+                require_part(name, given, f"the {name}", ("reset", "update"))
         self.negotiation = negotiation or NegotiationSettings()
         self.front_end: FrontEnd = front_end or NoFrontEnd()
         self.observer: Observer = observer or PaperObserver()

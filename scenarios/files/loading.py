@@ -6,6 +6,7 @@ import dataclasses
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from os import PathLike
 from pathlib import Path
 from typing import Any, Literal
 
@@ -15,6 +16,7 @@ from pydantic import BaseModel
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.own_modules import look_in
 from cowalk.sim.basics.registry import did_you_mean
+from cowalk.sim.basics.validators import require
 
 from .diagnosis import check
 from .documents import Document, KeyPath, dotted, knows_exponents, parse
@@ -53,9 +55,11 @@ def find(source: str | Path) -> Path:
     Raises
     ------
     InputError
-        If there is none.
+        If there is none, or it is neither name nor path.
     """
     known = scenario_library()
+    what = "the name or the path of a scenario is expected"
+    require(isinstance(source, str | PathLike), "scenario", source, what)
     if isinstance(source, str) and source in known:
         return known[source]
     path = Path(source)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from copy import deepcopy
 from importlib.resources import files
+from os import PathLike
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -17,6 +18,7 @@ from cowalk.agents.registry import IMPERFECTIONS
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.rates import Rates
 from cowalk.sim.basics.registry import did_you_mean
+from cowalk.sim.basics.validators import require
 from cowalk.sim.plant.registry import PLANTS
 
 from ..files.assembling import build_human, unsuited
@@ -175,6 +177,8 @@ def load_population(source: str | Path) -> Population:
         If the file is not right: the first fault, in one line.
     """
     known = population_library()
+    what = "the name or the path of a population is expected"
+    require(isinstance(source, str | PathLike), "population", source, what)
     file = known.get(str(source), Path(source))
     if not file.is_file():
         names = did_you_mean(str(source), list(known))

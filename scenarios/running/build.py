@@ -8,6 +8,7 @@ import numpy as np
 
 from cowalk.agents.basics.protocols import Automation, Human
 from cowalk.sim.basics.situation import Situation
+from cowalk.sim.basics.validators import require_instance
 from cowalk.sim.env.env import CowalkEnv
 
 from ..files.assembling import build_part
@@ -70,6 +71,7 @@ def build_agents(scenario: Scenario) -> tuple[Human, Automation]:
     InputError
         If a name or a parameter is not right.
     """
+    require_instance("scenario", scenario, Scenario, "a Scenario, as load returns one,")
     return build_part(scenario, "human"), build_part(scenario, "automation")
 
 

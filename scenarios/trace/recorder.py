@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from cowalk.agents.basics.protocols import Automation, Human
+from cowalk.sim.basics.validators import require_instance, require_part
 from cowalk.sim.env.env import CowalkEnv
 
 from .columns import all_columns
@@ -31,10 +32,14 @@ class Recorder:
     Raises
     ------
     InputError
-        If a column that the automation adds is in the trace already.
+        If one of them is of another kind, or a column that the automation adds is in the trace
+        already.
     """
 
     def __init__(self, env: CowalkEnv, human: Human, automation: Automation) -> None:
+        require_instance("env", env, CowalkEnv, "a CowalkEnv")
+        require_part("human", human, "a human", ("reset", "act", "truth"))
+        require_part("automation", automation, "an automation", ("reset", "act", "belief"))
         self._env, self._human, self._automation = env, human, automation
         self.added = dict(getattr(automation, "columns", {}))
         """Columns that the automation and its observer add, and their units."""

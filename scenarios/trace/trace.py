@@ -9,6 +9,7 @@ import numpy as np
 
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.motion import Array
+from cowalk.sim.basics.validators import require, require_whole
 
 from .columns import UNITS
 
@@ -21,6 +22,9 @@ RENAMED: dict[str, str] = {}
 """Columns of earlier forms that have another name now."""
 _WHOLE = ("negotiation", "negotiated")
 
+MOST_ROWS = 10_000_000
+"""To make room for at first: a week (inferred)."""
+
 
 class Trace:
     """One row a control step, one column a quantity.
@@ -31,9 +35,18 @@ class Trace:
         Every column and its unit, in order.
     capacity : int
         Number of rows to make room for at first.
+
+    Raises
+    ------
+    InputError
+        If the units are no mapping of text, or the capacity is not from 1 to `MOST_ROWS`.
     """
 
     def __init__(self, units: Mapping[str, str] = UNITS, capacity: int = 1024) -> None:
+        right = isinstance(units, Mapping) and len(units) > 0
+        right = right and all(isinstance(text, str) for item in units.items() for text in item)
+        require(right, "units", units, "a mapping of columns to units is expected")
+        require_whole("capacity", capacity, 1, MOST_ROWS)
         self.units = dict(units)
         self._place = {name: place for place, name in enumerate(units)}
         self._rows = np.empty((capacity, len(units)))

@@ -14,6 +14,11 @@ from ..basics.observation import Observation
 from ..basics.path import Path
 from ..basics.rates import Rates
 from ..basics.seats import SEATS
+<<<<<<< HEAD
+=======
+from ..basics.validators import refusal
+from ..plant.protocol import Plant, PlantState
+>>>>>>> 1a6daa5 (Test that every public constructor refuses nonsense, and let strategies, traces and sources do so)
 from ..plant.registry import build_plant
 from ..sensor.parameters import SensorParameters
 from ..sensor.presets import sensor_preset
@@ -108,7 +113,11 @@ class CowalkEnv(WatchedEnv):
         reward: RewardParameters | Mapping[str, Any] = RewardParameters(),
         render_mode: str | None = None,
     ) -> None:
-        sensor = sensor_preset(sensor) if isinstance(sensor, str) else sensor
+        if isinstance(sensor, str):
+            try:
+                sensor = sensor_preset(sensor)
+            except InputError as error:
+                raise error.inside("sensor") from error
         own = {} if plant_parameters is None else plant_parameters
         earned = reward_parameters(reward)
         self._configuration = given = Configuration(
@@ -117,7 +126,7 @@ class CowalkEnv(WatchedEnv):
         self.world, self.rates, self.bounds, self.pace = world, rates, bounds, pace
         self.steps_per_episode = given.steps
         if render_mode not in (None, *self.metadata["render_modes"]):
-            raise InputError(f"render_mode = {render_mode!r}; known: None, human, rgb_array")
+            raise refusal("render_mode", render_mode, "known: None, human, rgb_array")
         self.render_mode = render_mode
         watched = render_mode == "human"
         self._plant, shown = build_plant(plant, rates, own, watched)

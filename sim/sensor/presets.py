@@ -7,7 +7,7 @@ from typing import Any
 from ..basics.errors import InputError
 from ..basics.parameters import parameters
 from ..basics.registry import did_you_mean
-from ..basics.validators import require_text
+from ..basics.validators import require
 from .parameters import SensorParameters
 
 PRESETS: dict[str, tuple[str, SensorParameters]] = {
@@ -109,7 +109,7 @@ def sensor_preset(name: str, **changes: Any) -> SensorParameters:
     InputError
         If there is no such preset, or a change is refused.
     """
-    require_text("preset", name, "the name of a preset")
+    require(isinstance(name, str), "name", name, "the name of a preset is expected")
     if name == "none":
         return parameters("sensor", SensorParameters, changes)
     if name not in PRESETS:

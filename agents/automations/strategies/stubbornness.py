@@ -7,9 +7,13 @@ from cowalk.estimation.laws.stubbornness import utility_loss
 from cowalk.estimation.observers.protocol import Observer
 from cowalk.estimation.smoothers.protocol import Smoother
 from cowalk.sim.basics.motion import Array
+from cowalk.sim.basics.validators import Range, require, require_range
 
 from ..interaction import InteractionStrategy
 from ..planner.settings import NegotiationSettings
+
+INTERACTION: Range = (-100.0, 100.0, "")
+"""Of an interaction value: far beyond what it can be (inferred)."""
 
 
 class StubbornnessAutomation(InteractionStrategy):
@@ -28,8 +32,8 @@ class StubbornnessAutomation(InteractionStrategy):
 
     Raises
     ------
-    ValueError
-        If ``interaction_min`` is not below ``interaction_max``.
+    InputError
+        If ``interaction_min`` is not below ``interaction_max``, or one outside of `INTERACTION`.
     """
 
     def __init__(
@@ -42,11 +46,10 @@ class StubbornnessAutomation(InteractionStrategy):
         smoother: Smoother | None = None,
     ) -> None:
         super().__init__(negotiation, front_end, observer, smoother)
-        if not interaction_min < interaction_max:
-            raise ValueError(
-                f"interaction_min = {interaction_min} must lie below "
-                f"interaction_max = {interaction_max}"
-            )
+        require_range("interaction_min", interaction_min, INTERACTION)
+        require_range("interaction_max", interaction_max, INTERACTION)
+        what = f"must lie below interaction_max = {interaction_max}"
+        require(interaction_min < interaction_max, "interaction_min", interaction_min, what)
         self._range = (interaction_min, interaction_max)
 
     def utility_loss(self, interaction_smoothed: Array) -> Array:

@@ -27,7 +27,10 @@ SLOW = TwistBounds(upper=(0.5, 0.5))
         ({"force_limit": math.nan}, "force_limit = nan N: must lie between"),
         ({"force_limit": None}, "force_limit = None: a number is expected, in N"),
         ({"sensor": 3}, "sensor = 3: SensorParameters, or the name of a preset, is expected"),
-        ({"sensor": "cheap"}, "unknown sensor preset 'cheap'; known: laboratory, industrial"),
+        (
+            {"sensor": "cheap"},
+            "sensor: unknown sensor preset 'cheap'; known: laboratory, industrial",
+        ),
         ({"bounds": ((0, 0), (1, 1))}, r"bounds = \(\(0, 0\), \(1, 1\)\): TwistBounds is expected"),
         ({"rates": 20}, "rates = 20: Rates is expected"),
         ({"world": "puddle"}, "world = 'puddle': a World is expected"),
