@@ -83,7 +83,7 @@ def _components(
 ) -> list[Fault]:
     """Return the problems of all named parts; they are built if everything around is right.
 
-    What they add to the trace is added to ``columns``.
+    What an automation adds to the trace is added to ``columns``.
     """
     problems: list[Fault] = []
     for part, _, path, value in sections(data):
@@ -102,6 +102,8 @@ def _components(
             made = assemble(part, component, around, part.section, problems)
             if part.kind == "plant" and made is not None:
                 problems += _start(scenario, made)
+            if part.kind != "automation":  # `columns` of a recorded human are its file's
+                continue
             try:
                 columns |= all_columns(getattr(made, "columns", {}))
             except InputError as error:
