@@ -14,11 +14,7 @@ from ..basics.observation import Observation
 from ..basics.path import Path
 from ..basics.rates import Rates
 from ..basics.seats import SEATS
-<<<<<<< HEAD
-=======
 from ..basics.validators import refusal
-from ..plant.protocol import Plant, PlantState
->>>>>>> 1a6daa5 (Test that every public constructor refuses nonsense, and let strategies, traces and sources do so)
 from ..plant.registry import build_plant
 from ..sensor.parameters import SensorParameters
 from ..sensor.presets import sensor_preset

@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from ..basics.parameters import parameters
 from ..basics.seats import SEATS
-from ..basics.validators import Range, parameters, require_ranges
+from ..basics.validators import Range, require_ranges
 from ..plant.protocol import PlantState
 
 _WEIGHT: Range = (-1000.0, 1000.0, "")
