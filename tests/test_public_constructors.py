@@ -89,6 +89,7 @@ KINDS = {
     "text": TEXT,
     "word": (*TEXT, "no such word", ["left"]),
     "thing": THING,
+    "source": (None, 3, True, {}, object(), object),
     "class_": (3, "nonsense", True, [], object()),
     "mapping": (None, 3, "nonsense", True, [], [1], {3: 1}, {"nonsense": 1}),
     "seats": (None, 3, "human", ("robot",), (3,), {"human": 1}),
@@ -301,6 +302,13 @@ ROWS = {
     cowalk.estimation.PaperObserver: row(),
     SlidingMean: row({}, positive="window"),
     NoFrontEnd: row(),
+    cowalk.scenarios.SingleSeatEnv: row(
+        {"scenario": "puddle"},
+        source="scenario partner? population?",
+        word="seat observation render_mode?",
+        flag="normalise",
+        thing="reward?",
+    ),
     cowalk.scenarios.Trace: row({}, whole="capacity", mapping="units"),
     cowalk.scenarios.Recorder: row(
         {"env": ENVIRONMENT, "human": OpenLoopHuman(), "automation": NeverYields()},
