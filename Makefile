@@ -30,9 +30,10 @@ run: .venv/run  ## Run the closed-loop scenario and draw its picture
 test: .venv/develop  ## Run all tests
 	$(BIN)/python -m pytest -n auto --dist loadfile
 
-lint: .venv/develop  ## Check style and formatting
+lint: .venv/develop  ## Check style, formatting, and who imports whom
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
+	$(BIN)/lint-imports --no-cache
 
 types: .venv/develop  ## Check the types of what is shipped
 	rm -rf build

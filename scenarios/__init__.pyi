@@ -3,6 +3,7 @@ from .files.loading import load as load
 from .files.schema import Scenario as Scenario
 from .files.shipped import scenario_library as scenario_library
 from .people.population import load_population as load_population
+from .result import RunResult as RunResult
 from .running.build import build_agents as build_agents
 from .running.build import make_env as make_env
 from .running.build import seeds_of as seeds_of
@@ -10,5 +11,4 @@ from .running.build import situation_of as situation_of
 from .running.runner import run as run
 from .single_seat.environment import SingleSeatEnv as SingleSeatEnv
 from .trace.recorder import Recorder as Recorder
-from .trace.result import RunResult as RunResult
 from .trace.trace import Trace as Trace

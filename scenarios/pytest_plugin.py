@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import pytest
 
 if TYPE_CHECKING:
-    from .trace.result import RunResult
+    from .result import RunResult
 
 SUFFIX = ".scenario.yaml"
 

@@ -29,7 +29,7 @@ from .output import (
 
 if TYPE_CHECKING:
     from ..files.loading import Reading
-    from ..trace.result import RunResult
+    from ..result import RunResult
 
 
 def command_line() -> typer.Typer:
@@ -162,7 +162,7 @@ def _say_file(what: str, file: str) -> None:
 
 def _report(result: RunResult, files: dict[str, str]) -> None:
     from ..expect.verdict import explain
-    from ..trace.result import how_it_ended
+    from ..result import how_it_ended
     from ..trace.sensor_faults import sensor_faults
 
     summary = result.summary

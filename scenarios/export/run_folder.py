@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ..files.assembling import resolve
 from ..files.loading import to_yaml
-from ..trace.result import RunResult
+from ..result import RunResult
 from .folder import writable_folder
 
 FIGURE = "figure.png"

@@ -24,7 +24,7 @@ from .style import (
 )
 
 if TYPE_CHECKING:
-    from ..trace.result import RunResult
+    from ..result import RunResult
 
 TRUTH: dict[str, Any] = {"lw": 4.5, "alpha": 0.35, "solid_capstyle": "butt"}
 """A pale band under the estimates, so that both stay visible where they coincide."""

@@ -16,7 +16,7 @@ from .panels import PAPER_PANELS, columns, draw_panels
 from .style import AUTOMATION, REPORTED, halo, house_style, legend_above, new_figure, save
 
 if TYPE_CHECKING:
-    from ..trace.result import RunResult
+    from ..result import RunResult
 
 Mark = tuple[str, float, float, str]
 """A reported value: key of its panel, t in s, value, label."""

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from cowalk.sim.basics.motion import Array
 
-from ..trace.result import how_it_ended
+from ..result import how_it_ended
 from ..trace.sensor_faults import sensor_faults
 from .panels import PAPER_PANELS, columns, draw_panels
 from .paper import draw_paper_panels, draw_utility_loss
@@ -21,7 +21,7 @@ from .style import AGREED, FAULT, house_style, legend_above, new_figure, save
 from .top_view import draw_bodies, draw_top_view, window_of
 
 if TYPE_CHECKING:
-    from ..trace.result import RunResult
+    from ..result import RunResult
 
 __all__ = ["draw_paper_panels", "draw_run", "draw_utility_loss", "run_figure"]
 

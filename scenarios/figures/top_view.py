@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from cowalk.sim.world.outline import Outline
     from cowalk.sim.world.world import World
 
-    from ..trace.result import RunResult
+    from ..result import RunResult
 
 Rows = NDArray[np.intp]
 """Row numbers of a trace."""

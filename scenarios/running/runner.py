@@ -20,9 +20,9 @@ from ..export.json_ready import json_ready
 from ..export.run_folder import picture
 from ..files.assembling import named_parts
 from ..files.schema import Scenario
+from ..result import RunResult
 from ..trace.metrics import metrics
 from ..trace.recorder import Recorder
-from ..trace.result import RunResult
 from ..trace.rewards import RewardSum
 from ..trace.samples import SampleTable
 from ..trace.sensor_faults import SampleCount

@@ -15,7 +15,7 @@ import numpy as np
 
 from cowalk.sim.basics.motion import Array
 
-from ..trace.result import RunResult
+from ..result import RunResult
 
 SCENARIO = "paper-open-loop"
 SETTLED_OVER = 5

@@ -15,8 +15,8 @@ from cowalk.scenarios.figures.run import draw_paper_panels, draw_run, draw_utili
 from cowalk.scenarios.figures.style import FAULT
 from cowalk.scenarios.figures.top_view import window_of
 from cowalk.scenarios.files.schema import Scenario
+from cowalk.scenarios.result import RunResult
 from cowalk.scenarios.trace.columns import UNITS
-from cowalk.scenarios.trace.result import RunResult
 from cowalk.scenarios.trace.trace import Trace
 from cowalk.sim.basics.motion import arc_displacement, compose
 from cowalk.sim.basics.path import Path

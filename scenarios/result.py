@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 from cowalk.sim.plant.discs import PLAIN_BODIES
 from cowalk.sim.world.outline import Outline
 
-from .samples import SampleTable
-from .trace import Trace
+from .trace.samples import SampleTable
+from .trace.trace import Trace
 
 if TYPE_CHECKING:
-    from ..expect.verdict import Verdict
-    from ..files.schema import Scenario
+    from .expect.verdict import Verdict
+    from .files.schema import Scenario
 
 
 @dataclass
