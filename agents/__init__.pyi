@@ -1,8 +1,8 @@
-from .automations.interaction import InteractionStrategy as InteractionStrategy
-from .automations.negotiation import Agreement as Agreement
-from .automations.negotiation import Negotiation as Negotiation
 from .automations.planner.settings import NegotiationSettings as NegotiationSettings
-from .automations.strategy import Strategy as Strategy
+from .automations.strategies.interaction import InteractionStrategy as InteractionStrategy
+from .automations.strategies.negotiation import Agreement as Agreement
+from .automations.strategies.negotiation import Negotiation as Negotiation
+from .automations.strategies.strategy import Strategy as Strategy
 from .basics.protocols import Automation as Automation
 from .basics.protocols import Belief as Belief
 from .basics.protocols import Human as Human

@@ -3,10 +3,10 @@ from .observers.paper import PaperObserver as PaperObserver
 from .observers.protocol import Estimate as Estimate
 from .observers.protocol import ForceReading as ForceReading
 from .observers.protocol import Observer as Observer
+from .observers.sample import Sample as Sample
 from .registry import FRONT_ENDS as FRONT_ENDS
 from .registry import OBSERVERS as OBSERVERS
 from .registry import SMOOTHERS as SMOOTHERS
-from .sample import Sample as Sample
 from .scores.error import bias as bias
 from .scores.error import lag as lag
 from .scores.error import rmse as rmse

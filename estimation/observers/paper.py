@@ -12,8 +12,8 @@ from cowalk.sim.basics.situation import Situation
 from ..front_ends.mean import mean_force
 from ..laws.intent import human_wish, wish_change
 from ..laws.stubbornness import stubbornness
-from ..sample import Sample
 from .protocol import Estimate, ForceReading
+from .sample import Sample
 
 
 class PaperObserver:

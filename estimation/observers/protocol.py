@@ -11,7 +11,7 @@ import numpy as np
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.situation import Situation
 
-from ..sample import Sample
+from .sample import Sample
 
 
 @dataclass(frozen=True)

@@ -190,6 +190,7 @@ class CowalkEnv(WatchedEnv):
             why = blocked_start(self.world, plant.bodies, state.poses, plant.distances)
             self.agents, self._started = [], False
             raise InputError(why)
+        self._relative = self.world.path.relative(*state.pose)
         self._info = {"clearance": clearance} | dict.fromkeys(_ENDS, False)
         return self._observations(), {seat: dict(self._info) for seat in SEATS}
 
@@ -215,14 +216,16 @@ class CowalkEnv(WatchedEnv):
         self.applied = force, twist
         state = self._state = self._plant.step(twist, force)
         self._step_count += 1
-        self._reading = self._sensor.measure(state.wrench_on_base, state.mount)
+        self._relative = self.world.path.relative(*state.pose)
         clearance, collision = self._distances(self._time, *state.poses)
-        observations = self._observations()
         goal = self._relative[0] >= self.world.path.length
         ends = zip(_ENDS, (goal, collision, not state.grip_held), strict=True)
         self._info = {"clearance": clearance} | dict(ends)
         terms = self._reward.terms(state, self._relative, clearance, collision, goal)
         self._terms, rewards = terms, self._reward.of_each_seat(terms)
+        # What has happened is known by now; here is what the seats get to know of it.
+        self._reading = self._sensor.measure(state.wrench_on_base, state.mount)
+        observations = self._observations()
         over = goal or collision or state.over
         late = not over and self._step_count >= self.steps_per_episode
         if over or late:
@@ -243,9 +246,7 @@ class CowalkEnv(WatchedEnv):
         return self._step_count / self.rates.control
 
     def _observations(self) -> dict[str, Observation]:
-        state = self._state
-        self._relative = self.world.path.relative(*state.pose)
-        return self._perceive(state, self._reading, self._relative, self._time)
+        return self._perceive(self._state, self._reading, self._relative, self._time)
 
 
 def parallel_env(world: World = STRAIGHT_CORRIDOR, **arguments: Any) -> CowalkEnv:

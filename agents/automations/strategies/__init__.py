@@ -1,1 +1,1 @@
-"""How much an automation concedes, one file a strategy."""
+"""How an automation negotiates and concedes: the loop that strategies share, one file each."""

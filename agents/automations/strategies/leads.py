@@ -6,7 +6,7 @@ import numpy as np
 
 from cowalk.sim.basics.motion import Array
 
-from ..interaction import InteractionStrategy
+from .interaction import InteractionStrategy
 
 
 class NeverYields(InteractionStrategy):

@@ -9,8 +9,8 @@ from cowalk.estimation.smoothers.protocol import Smoother
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.validators import Range, require, require_range
 
-from ..interaction import InteractionStrategy
 from ..planner.settings import NegotiationSettings
+from .interaction import InteractionStrategy
 
 INTERACTION: Range = (-100.0, 100.0, "")
 """Of an interaction value: far beyond what it can be (inferred)."""

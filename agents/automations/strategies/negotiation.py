@@ -12,7 +12,7 @@ from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
 from cowalk.sim.basics.situation import Situation
 
-from .planner.problem import Problem
+from ..planner.problem import Problem
 
 
 @dataclass(frozen=True, slots=True, eq=False)

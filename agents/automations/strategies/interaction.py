@@ -10,8 +10,8 @@ from cowalk.estimation.laws.stubbornness import interaction_value, stubbornness_
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.situation import Situation
 
+from ..planner.utility import negotiated
 from .negotiation import Agreement, Negotiation
-from .planner.utility import negotiated
 from .strategy import Strategy
 
 

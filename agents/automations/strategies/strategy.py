@@ -14,7 +14,7 @@ from cowalk.estimation.front_ends.none import NoFrontEnd
 from cowalk.estimation.front_ends.protocol import FrontEnd
 from cowalk.estimation.observers.paper import PaperObserver
 from cowalk.estimation.observers.protocol import Estimate, ForceReading, Observer
-from cowalk.estimation.sample import Sample
+from cowalk.estimation.observers.sample import Sample
 from cowalk.estimation.smoothers.moving_average import MovingAverage
 from cowalk.estimation.smoothers.protocol import Smoother
 from cowalk.sim.basics.errors import PartError
@@ -23,10 +23,10 @@ from cowalk.sim.basics.observation import Observation
 from cowalk.sim.basics.situation import Situation
 from cowalk.sim.basics.validators import require_instance, require_part
 
-from ..basics.protocols import Belief
+from ...basics.protocols import Belief
+from ..planner.problem import PROBLEMS
+from ..planner.settings import NegotiationSettings
 from .negotiation import Agreement, Negotiation
-from .planner.problem import PROBLEMS
-from .planner.settings import NegotiationSettings
 
 
 class Strategy(ABC):
