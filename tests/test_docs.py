@@ -101,3 +101,11 @@ def leads_somewhere(name):
             return hasattr(getattr(importlib.import_module(module), part), last)
         return hasattr(importlib.import_module(owner), last)
     return True
+
+
+def test_new_names_in_the_list_of_changes_lead_somewhere():
+    rows = re.findall(
+        r"^\| `(cowalk\S+)` \| `(cowalk\S+)` \|$", (ROOT / "CHANGELOG.md").read_text(), re.M
+    )
+    assert rows
+    assert not [new for _, new in rows if not leads_somewhere(new)]
