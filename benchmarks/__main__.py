@@ -19,10 +19,12 @@ from . import (
     plant_options,
     sensing,
     shares,
+    start_up,
     surroundings,
 )
 
 SUBJECTS = {
+    "start": start_up.measure,
     "closed loop": closed_loop.measure,
     "walk": partial(closed_loop.measure, "walk", 80.0, 2.0),
     "walk on wheels": partial(closed_loop.measure, "walk", 80.0, 2.0, "wheels"),
