@@ -170,6 +170,16 @@ def _parameter_model(
     Fields are numbered, since a parameter may bear a name that a pydantic model cannot use.
     """
     hints = _hints(constructor)
+    try:
+        return _model_of(constructor, hints, shared)
+    except (PydanticSchemaGenerationError, PydanticUserError):  # for one of them at least
+        checkable = {name: _checkable(hint) for name, hint in hints.items()}
+        return _model_of(constructor, checkable, shared)
+
+
+def _model_of(
+    constructor: Callable[..., Any], hints: Mapping[str, Any], shared: tuple[str, ...]
+) -> tuple[type[BaseModel], dict[str, str]]:
     fields: dict[str, Any] = {}
     names: dict[str, str] = {}
     for name, parameter in _accepted(constructor).items():
@@ -179,7 +189,7 @@ def _parameter_model(
         field = f"parameter_{len(fields)}"
         names[field] = name
         fields[field] = (
-            _checkable(hints.get(name, Any)),
+            hints.get(name, Any),
             Field(... if required else None, alias=name),
         )
     open_ended = any(

@@ -21,6 +21,8 @@ from cowalk.sim.world.world import World
 
 from .parts import Part, kind_of_part, parts
 
+# A file is validated against models made of these: most are never built themselves.
+_CONFIG = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
 def _within(name: str) -> AfterValidator:
     """Return what refuses a number that no environment can be made with."""
@@ -38,7 +40,7 @@ class Component(BaseModel):
     A file may give the name alone, ``human: steady`` for ``human: {name: steady}``.
     """
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = _CONFIG
 
     name: str
     parameters: dict[str, Any] = Field(default_factory=dict)
@@ -68,7 +70,7 @@ class Scenario(BaseModel):
     a part without an attribute here is reached by `part_of`.
     """
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = _CONFIG
 
     name: Annotated[str, Field(pattern=r"^[^./][^/]*$")]
     description: str = ""

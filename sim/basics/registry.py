@@ -32,10 +32,13 @@ def did_you_mean(name: str, known: list[str], suited: list[str] | None = None) -
     return f"did you mean {near!r}? Known: {names}" if near else f"known: {names}"
 
 
+_all_installed = cache(entry_points)
+"""Reading the metadata of all installed packages takes milliseconds: once is enough."""
+
+
 @cache
 def _installed(group: str) -> dict[str, str]:
-    # Reading the metadata of all installed packages takes milliseconds.
-    return {point.name: point.value for point in entry_points(group=group)}
+    return {point.name: point.value for point in _all_installed().select(group=group)}
 
 
 def part(kind: str) -> Callable[[F], F]:
