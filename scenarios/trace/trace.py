@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,6 +13,9 @@ from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.validators import require, require_whole
 
 from .columns import UNITS
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
 
 FORMAT = 2
 """Number of the form in which traces and run folders are written.
@@ -78,6 +82,29 @@ class Trace:
     def values(self) -> Array:
         """All rows, shape (rows, columns)."""
         return self._rows[: self._count]
+
+    def to_pandas(self) -> DataFrame:
+        """Return a data frame, a row a control step, with the units in ``attrs["units"]``.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A copy, its columns in the order of `units`.
+
+        Raises
+        ------
+        InputError
+            If pandas is not installed.
+        """
+        try:
+            from pandas import DataFrame
+        except ImportError as error:
+            raise InputError(
+                "to_pandas needs pandas, which is not installed; pip install 'cowalk[notebook]'"
+            ) from error
+        frame = DataFrame(self.columns())
+        frame.attrs["units"] = dict(self.units)
+        return frame
 
     def write(self, file: Path) -> None:
         """Write a Parquet file whose fields carry their unit as metadata ``unit``."""
