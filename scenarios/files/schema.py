@@ -24,6 +24,7 @@ from .parts import Part, kind_of_part, parts
 # A file is validated against models made of these: most are never built themselves.
 _CONFIG = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
+
 def _within(name: str) -> AfterValidator:
     """Return what refuses a number that no environment can be made with."""
 

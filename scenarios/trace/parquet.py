@@ -26,6 +26,7 @@ def write_columns(
     ----------
     file : Path
     columns : mapping of str to ndarray, shape (rows,)
+        Of numbers.
     units : mapping of str to str
     form : int
         Number of the form, kept in the file's metadata as ``cowalk.format``.
@@ -38,7 +39,10 @@ def write_columns(
     fields, arrays = [], []
     for name, column in columns.items():
         values = np.nan_to_num(column).astype(np.int64) if name in whole else column
-        array = pa.array(values)
+        values = np.ascontiguousarray(values)
+        # pa.array would import pandas where it is installed, to ask whether these are a series.
+        buffers = [None, pa.py_buffer(values)]
+        array = pa.Array.from_buffers(pa.from_numpy_dtype(values.dtype), len(values), buffers)
         fields.append(pa.field(name, array.type, metadata={"unit": units[name]}))
         arrays.append(array)
     schema = pa.schema(fields, metadata={_FORM: str(form)})
