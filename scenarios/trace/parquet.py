@@ -39,10 +39,10 @@ def write_columns(
     fields, arrays = [], []
     for name, column in columns.items():
         values = np.nan_to_num(column).astype(np.int64) if name in whole else column
-        values = np.ascontiguousarray(values)
+        data = np.ascontiguousarray(values)
         # pa.array would import pandas where it is installed, to ask whether these are a series.
-        buffers = [None, pa.py_buffer(values)]
-        array = pa.Array.from_buffers(pa.from_numpy_dtype(values.dtype), len(values), buffers)
+        buffers = [None, pa.py_buffer(data)]
+        array = pa.Array.from_buffers(pa.from_numpy_dtype(data.dtype), len(data), buffers)
         fields.append(pa.field(name, array.type, metadata={"unit": units[name]}))
         arrays.append(array)
     schema = pa.schema(fields, metadata={_FORM: str(form)})

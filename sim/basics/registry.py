@@ -6,7 +6,6 @@ import difflib
 import inspect
 from collections.abc import Callable, Iterator, Mapping
 from functools import cache
-from importlib.metadata import entry_points
 from typing import Any, Generic, TypeVar
 
 from .errors import InputError
@@ -32,8 +31,12 @@ def did_you_mean(name: str, known: list[str], suited: list[str] | None = None) -
     return f"did you mean {near!r}? Known: {names}" if near else f"known: {names}"
 
 
-_all_installed = cache(entry_points)
-"""Reading the metadata of all installed packages takes milliseconds: once is enough."""
+@cache
+def _all_installed() -> Any:
+    # Slow to import, and reading the metadata of all packages takes milliseconds: once is enough.
+    from importlib.metadata import entry_points
+
+    return entry_points()
 
 
 @cache
