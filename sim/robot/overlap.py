@@ -13,7 +13,7 @@ from ..basics.motion import Array
 from ..body.anthropometry import ANKLE_HEIGHT, HALF_HIPS, TRUNK_DEPTH, BodyParameters
 from ..body.human_body import trunk_outline
 from ..urdf.solids import Solid
-from ..world.outline import Outline, across, corners, hull
+from ..world.outline import Outline, across, hull, hull_corners
 
 TOLERANCE = 0.02
 """How far a robot may reach into a human, m (inferred): shapes are coarse, and flesh gives way."""
@@ -151,7 +151,7 @@ def _block(solid: Solid, part: Slice) -> Block | None:
     if solid.radius > 0.0:
         rims = hull((x, y, solid.radius) for x, y in rims.tolist()).polygon
     elif len(rims) > len(part.outline.polygon):
-        rims = rims[corners(rims)]
+        rims = rims[hull_corners(rims)]
     # Slow to import, and needed only where a human stands near the robot's middle.
     from scipy.spatial import ConvexHull
 

@@ -18,7 +18,7 @@ Disc = tuple[float, float, float]
 SIDES = 64
 """Corners by which a circle is drawn: they are off by 0.06 % of its radius at most."""
 FLAT = 1e-14
-"""What three points in a row turn by that is rounding: an area, as a share of all they span."""
+"""How far a point may stand out by rounding, as a share of what all of them span."""
 _ANGLES = (np.arange(SIDES) + 0.5) * (math.tau / SIDES)
 # Half outside, half inside: the error of a polygon of so many sides, on either side of zero.
 _GROWN = 2.0 / (1.0 + math.cos(math.pi / SIDES))
@@ -44,7 +44,7 @@ class Outline:
     def polygon(self) -> Array:
         """Its corners, circles by `SIDES` of them, counter-clockwise, shape (n, 2), m."""
         points, _ = _sampled(self.discs)
-        return np.asarray(points[corners(points)])
+        return np.asarray(points[hull_corners(points)])
 
     @property
     def swing(self) -> float:
@@ -143,14 +143,14 @@ def hull(discs: Iterable[Disc]) -> Outline:
     """
     given = tuple(dict.fromkeys(discs))
     points, owners = _sampled(given)
-    found = corners(points)
+    found = hull_corners(points)
     if len(found) < 3:
         raise ValueError("no outline: nothing, or nothing but a line")
     kept = dict.fromkeys(int(owner) for owner in owners[found])
     return Outline(tuple(given[owner] for owner in kept))
 
 
-def corners(points: Array) -> NDArray[np.intp]:
+def hull_corners(points: Array) -> NDArray[np.intp]:
     """Return the numbers of the corners of the convex hull of points, counter-clockwise.
 
     By Andrew's monotone chain (Inf. Process. Lett. 9, 1979), from the corner with the lowest
@@ -167,21 +167,31 @@ def corners(points: Array) -> NDArray[np.intp]:
         Less than three if the points lie on a line: its ends.
     """
     x, y = points[:, 0].tolist(), points[:, 1].tolist()
-    flat = FLAT * float(np.ptp(points, axis=0).max() ** 2) if len(points) else 0.0
+
+    def turn(a: int, b: int, c: int) -> float:
+        return (x[b] - x[a]) * (y[c] - y[a]) - (y[b] - y[a]) * (x[c] - x[a])
 
     def side(order: list[int]) -> list[int]:
         kept: list[int] = []
         for c in order:
-            while len(kept) > 1:
-                a, b = kept[-2:]
-                if (x[b] - x[a]) * (y[c] - y[a]) - (y[b] - y[a]) * (x[c] - x[a]) > flat:
-                    break
+            while len(kept) > 1 and turn(*kept[-2:], c) <= 0.0:
                 kept.pop()
             kept.append(c)
         return kept[:-1]
 
     order = np.lexsort((y, x)).tolist()
     found = [*side(order), *side(order[::-1])] or order[:1]
+    # What is left of the edge beside it by rounding alone is no corner. The flattest goes first,
+    # since it is the middle one of three on a line whatever the order in which they were met.
+    flat = FLAT * float(np.ptp(points, axis=0).max()) if len(points) else 0.0
+    while len(found) > 2:
+        around = zip(found[-1:] + found[:-1], found, found[1:] + found[:1], strict=True)
+        height, flattest = min(
+            (turn(a, b, c) / math.hypot(x[c] - x[a], y[c] - y[a]), b) for a, b, c in around
+        )
+        if height > flat:
+            break
+        found.remove(flattest)
     first = found.index(min(found)) if found else 0
     return np.array(found[first:] + found[:first], dtype=np.intp)
 

@@ -20,7 +20,7 @@ from cowalk.sim.plant.registry import PLANTS
 from cowalk.sim.robot.robot import RobotParameters, robot_of
 from cowalk.sim.urdf.solids import robot_outline, robot_solids
 from cowalk.sim.world.footprint import corners, furniture
-from cowalk.sim.world.outline import across, disc, hull, rectangle
+from cowalk.sim.world.outline import across, disc, hull, hull_corners, rectangle
 from cowalk.sim.world.world import Corridor, Furniture, Obstacle, Pedestrian, Wall, World
 
 PATH = Path(((0.0, 0.0), (20.0, 0.0)))
@@ -361,3 +361,11 @@ def test_every_plant_tells_what_its_bodies_occupy_and_measures_just_that(plant):
         assert infos["human"]["clearance"] == pytest.approx(min(gaps), abs=1e-3)
         infos = env.step({"human": np.zeros(2), "automation": np.array([0.6, 0.4])})[-1]
     env.close()
+
+
+def test_points_on_a_line_but_for_rounding_keep_the_ends_of_the_line():
+    """Sorted by coordinates that are rounding, the ends are met in the middle."""
+    line = np.array([[0.0, 0.0], [1e-44, 1.0], [2e-44, -1.0], [0.0, 0.5]])
+    assert sorted(hull_corners(line)) == [1, 2]
+    beside = np.concatenate((line, [[1.0, 0.0]]))
+    assert sorted(hull_corners(beside)) == [1, 2, 4]
