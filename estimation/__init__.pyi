@@ -1,3 +1,6 @@
+from .checks.front_ends import check_front_end as check_front_end
+from .checks.observers import check_observer as check_observer
+from .checks.smoothers import check_smoother as check_smoother
 from .front_ends.protocol import FrontEnd as FrontEnd
 from .observers.paper import PaperObserver as PaperObserver
 from .observers.protocol import Estimate as Estimate

@@ -5,35 +5,43 @@
 
 from __future__ import annotations
 
-import inspect
-import pickle
-import random
 from collections.abc import Callable, Iterator
-from typing import Any
+from functools import partial
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from cowalk.sim.basics.errors import InputError
+from cowalk.estimation.checks.rules import (
+    RETURNED,
+    Kept,
+    Methods,
+    attempt,
+    column_faults,
+    generator_faults,
+    problems_of,
+    raise_problems,
+    repeat_faults,
+)
+from cowalk.estimation.checks.stream import SITUATION
 from cowalk.sim.basics.motion import Array
 
 from ..basics.protocols import Truth
 from .rules import (
-    Broken,
     access_hint,
     belief_faults,
-    call_faults,
     faint_faults,
     force_faults,
     insistence,
-    one_line,
     require_pair,
     truth_faults,
     twist_faults,
 )
-from .walk import SITUATION, observations
+from .strategies import constructor_faults, watched
+from .walk import observations
 
 _ANSWERS = 1e-3
 """Least difference of a force in N, or of a twist in m/s or rad/s, that counts as an answer."""
+_WALK = (1.0, 1.0)
 _OUTPUT = {
     "human": "return the hand force on the base in N, np.array([fx, fy])",
     "automation": "return the twist in m/s and rad/s, np.array([v, omega])",
@@ -60,14 +68,16 @@ def check_human(human: Any) -> None:
     InputError
         If something is not right: all faults, each with its cure.
     """
-    _raise(human, human_problems(human))
+    raise_problems(human, human_problems(human))
 
 
 def check_automation(automation: Any) -> None:
     """Check that an object keeps the protocol `Automation`.
 
     As `check_human`; the twist must lie within the situation's bounds and answer the base's
-    motion or the measured force, and the belief must lie within its ranges.
+    motion or the measured force, the belief must lie within its ranges, and what it adds to the
+    trace must be declared in ``columns``. A `Strategy` must return an `Agreement`, leave the
+    `Negotiation` alone, and take from a scenario what it is to negotiate with.
 
     Parameters
     ----------
@@ -79,100 +89,70 @@ def check_automation(automation: Any) -> None:
     InputError
         If something is not right: all faults, each with its cure.
     """
-    _raise(automation, automation_problems(automation))
+    raise_problems(automation, automation_problems(automation))
 
 
 def human_problems(human: Any) -> list[str]:
     """Return every fault that `check_human` finds, each with its cure."""
-    return _problems(human, "human", "truth", force_faults, truth_faults)
+    # A human must answer how the base moves, however they are pushed.
+    seat = _Seat("human", "truth", (0.3, 1.0), force_faults, lambda part: truth_faults)
+    return problems_of(human, _methods(seat), partial(_examine, seat=seat))
 
 
 def automation_problems(automation: Any) -> list[str]:
     """Return every fault that `check_automation` finds, each with its cure."""
-    return _problems(automation, "automation", "belief", twist_faults, belief_faults)
+    seat = _Seat("automation", "belief", (0.3, 0.3), twist_faults, _beliefs)
+    found = problems_of(automation, _methods(seat), partial(_examine, seat=seat))
+    return [*constructor_faults(automation), *found]
 
 
-def _raise(part: Any, problems: list[str]) -> None:
-    name = part.__name__ if inspect.isclass(part) else type(part).__name__
-    if problems:
-        raise InputError(f"{name}: " + "; ".join(problems))
+def _beliefs(part: Any) -> Faults:
+    return partial(belief_faults, columns=getattr(part, "columns", {}))
 
 
 Faults = Callable[[Any], Iterator[str]]
 
 
-def _problems(part: Any, seat: str, report: str, outputs: Faults, reports: Faults) -> list[str]:
-    if inspect.isclass(part):
-        try:
-            part = part()
-        except (Exception, SystemExit) as error:
-            what = one_line(error)
-            return [f"it cannot be built without arguments ({what}): check an instance of it"]
-    methods = {
+class _Seat(NamedTuple):
+    """What is expected in a seat: what it reports, and what is wrong with what it answers.
+
+    ``calm`` scales the walk that its output must answer: swing and push.
+    """
+
+    name: str
+    report: str
+    calm: tuple[float, float]
+    outputs: Faults
+    reports: Callable[[Any], Faults]
+
+
+def _methods(seat: _Seat) -> Methods:
+    return {
         "reset": (("rng", "situation"), "reset(self, rng, situation)"),
-        "act": (("observation",), f"act(self, observation), to {_OUTPUT[seat]}"),
-        report: ((), f"{report}(self), to return a {report.capitalize()}"),
+        "act": (("observation",), f"act(self, observation), to {_OUTPUT[seat.name]}"),
+        seat.report: ((), f"{seat.report}(self), to return a {seat.report.capitalize()}"),
     }
-    problems = list(call_faults(part, methods))
-    if problems:
-        return problems
-    states = _global_states()
-    found: dict[str, None] = {}  # each fault once, in order
-    # A human must answer how the base moves; an automation may answer the push alone.
-    calm = (0.3, 1.0 if seat == "human" else 0.3)
-    try:
+
+
+def _examine(part: Any, seat: _Seat) -> Iterator[str]:
+    """Yield the faults of a part that has the methods of its seat."""
+    automation = seat.report == "belief"
+    found = dict.fromkeys(column_faults(getattr(part, "columns", {})) if automation else ())
+    with watched(part, found):
         # The first walk once more at the end: a class may count its resets.
-        first, again, calmer, last = (
-            _walk(part, report, sizes, outputs, reports, _OUTPUT[seat], found)
-            for sizes in ((1.0, 1.0), (1.0, 1.0), calm, (1.0, 1.0))
-        )
-        found |= dict.fromkeys(_generator_faults(part))
-    except Broken as error:
-        return [*found, str(error)]
-    problems = list(found)
-    if _global_states() != states:
-        problems.append(
-            "it touches the global random state: draw from the rng that reset is given alone"
-        )
-    # NaN, named already, is not equal to itself.
-    repeats = [
-        np.isclose(first, other, rtol=0.0, atol=0.0, equal_nan=True) for other in (again, last)
-    ]
-    different = np.flatnonzero(~np.all(repeats, axis=(0, -1)))
-    if different.size:
-        problems.append(
-            f"two walks after resets with equal generators differ from step {different[0]} on: set "
-            "all state in reset, and draw only from the rng that reset is given"
-        )
-    elif not problems:
-        problems += _loop_faults(part, seat, float(np.abs(first - calmer).max()))
-    return problems
+        walks = [_walk(part, seat, sizes, found) for sizes in (_WALK, _WALK, seat.calm, _WALK)]
+        found |= dict.fromkeys(generator_faults(part, partial(_reset, part), "the same person"))
+    first, again, calmer, last = walks
+    cure = "set all state in reset, and draw only from the rng that reset is given"
+    what = "two walks after resets with equal generators"
+    found |= dict.fromkeys(repeat_faults(first, [again, last], what, cure))
+    yield from found
+    if not found:
+        yield from _loop_faults(part, seat.name, float(np.abs(first - calmer).max()))
 
 
-def _generator_faults(part: Any) -> Iterator[str]:
-    """Yield which generators that a part keeps start alike, whatever reset is given."""
-    drawn = _generators(part)  # after a walk that began with seed 7
-    starts = []
-    for seed in (7, 8):
-        part.reset(np.random.default_rng(seed), SITUATION)
-        starts.append(_generators(part))
-    for name, start in starts[0].items():
-        if start == starts[1].get(name) and start != drawn.get(name):
-            yield (
-                f"the generator self.{name} starts alike whatever rng reset is given, so that "
-                f"every seed gives the same person: self.{name} = rng in reset"
-            )
-
-
-def _generators(part: Any) -> dict[str, bytes]:
-    """Return the states of the generators of random numbers that a part keeps, by attribute."""
-    found = {}
-    for name, value in getattr(part, "__dict__", {}).items():
-        if isinstance(value, np.random.Generator):
-            found[name] = pickle.dumps(value.bit_generator.state)
-        elif isinstance(value, random.Random):
-            found[name] = pickle.dumps(value.getstate())
-    return found
+def _reset(part: Any, seed: int) -> None:
+    part.reset(np.random.default_rng(seed), SITUATION)
 
 
 def _loop_faults(part: Any, seat: str, difference: float) -> Iterator[str]:
@@ -187,53 +167,30 @@ def _loop_faults(part: Any, seat: str, difference: float) -> Iterator[str]:
         yield f"it says closed_loop = False, yet its {output} answers the base: leave that out"
 
 
-def _global_states() -> bytes:
-    legacy = np.random.get_state()  # noqa: NPY002 - the global state is what is watched
-    return pickle.dumps((legacy, random.getstate()))
-
-
-def _walk(
-    part: Any,
-    report: str,
-    sizes: tuple[float, float],
-    outputs: Faults,
-    reports: Faults,
-    cure: str,
-    found: dict[str, None],
-) -> Array:
+def _walk(part: Any, seat: _Seat, sizes: tuple[float, float], found: dict[str, None]) -> Array:
     """Step a part through one walk; return outputs, and note every fault.
 
     ``sizes`` scale how much the base moves to and fro, and how hard it is pushed.
     """
-    step, verb = 0, "reset"
-    kept: list[tuple[Array, Array]] = []
+    kept, out = Kept(), []
     insisted = 0.0
-    try:
-        part.reset(np.random.default_rng(7), SITUATION)
-        for seen in observations(*sizes):
-            before = {key: value.copy() for key, value in seen.items()}  # type: ignore[attr-defined]
-            verb = "act"
-            output = part.act(seen)
-            for key, value in before.items():
-                if not np.array_equal(seen[key], value):  # type: ignore[literal-required]
-                    found[f"act changes observation[{key!r}]: work on a copy"] = None
-            require_pair("act returned", output, cure)
-            found |= dict.fromkeys(outputs(output))
-            kept.append((output, output.copy()))
-            verb = report
-            said = getattr(part, report)()
-            found |= dict.fromkeys(reports(said))
-            if isinstance(said, Truth):
-                insisted = max(insisted, insistence(said, before["twist"]))
-            step += 1
-    except Broken:
-        raise
-    except (Exception, SystemExit) as error:
-        hint = access_hint(error) if isinstance(error, Exception) else ""
-        raise Broken(f"{verb} fails at step {step}: {one_line(error)}{hint}") from None
-    if any((now != then).any() for now, then in kept if np.isfinite(then).all()):
-        found["act changes an array that it returned before: return a fresh one"] = None
-    walked = np.array([then for _, then in kept])
+    reports, report = seat.reports(part), seat.report
+    attempt("reset fails at step 0", _reset, part, 7)
+    for step, seen in enumerate(observations(*sizes)):
+        twist = seen["twist"].copy()
+        for key, value in seen.items():
+            kept.keep(f"act changes observation[{key!r}]: work on a copy", value)  # type: ignore[arg-type]
+        output = attempt(f"act fails at step {step}", part.act, seen, hint=access_hint)
+        require_pair("act returned", output, _OUTPUT[seat.name])
+        found |= dict.fromkeys(seat.outputs(output))
+        kept.keep(f"act {RETURNED}", output)
+        out.append(output.copy())
+        said = attempt(f"{report} fails at step {step}", getattr(part, report), hint=access_hint)
+        found |= dict.fromkeys(reports(said))
+        if isinstance(said, Truth):
+            insisted = max(insisted, insistence(said, twist))
+    found |= dict.fromkeys(kept.faults())
+    walked = np.array(out)
     if report == "truth":
         found |= dict.fromkeys(faint_faults(walked, insisted))
     return walked

@@ -5,9 +5,10 @@ from __future__ import annotations
 import inspect
 from typing import Any
 
+from cowalk.estimation.checks.rules import one_line
+
 from ..humans.steady import SteadyHuman
 from .conformance import human_problems
-from .rules import one_line
 
 
 def imperfection_problems(imperfection: Any) -> list[str]:

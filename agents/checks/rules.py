@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import inspect
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
 
+from cowalk.estimation.checks.rules import Broken, brief, extra_faults, require_array
+from cowalk.estimation.checks.stream import BOUNDS
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
 
 from ..basics.protocols import Belief, Truth
-from .walk import SITUATION
 
 FORCE_PLAUSIBLE = 100.0
 """Largest force of one hand that is plausible, N; people communicate with up to 30 N."""
@@ -25,40 +25,16 @@ INSISTS = 0.1
 """Share of a disagreement insisted on, m/s or rad/s, at which a force is to be felt."""
 _CURE = "return np.array([a, b]), one number for v, one for omega"
 _SCALARS = ("utility_loss", "target_utility", "interaction", "interaction_smoothed")
-
-
-class Broken(Exception):
-    """A fault after which the walk cannot go on."""
-
-
-def one_line(error: BaseException) -> str:
-    """Return kind and text of an error in one line."""
-    return f"{type(error).__name__}: {' '.join(str(error).split())}".rstrip(": ")
-
-
-def call_faults(part: Any, methods: dict[str, tuple[tuple[str, ...], str]]) -> Iterator[str]:
-    """Yield which methods are missing, or cannot be called as the runner calls them.
-
-    Parameters
-    ----------
-    part : object
-    methods : dict of str to ((str, ...), str)
-        Arguments, and how the method is declared.
-    """
-    for name, (arguments, how) in methods.items():
-        method = getattr(part, name, None)
-        if not callable(method):
-            yield f"there is no method {name!r}: add {how}"
-            continue
-        try:
-            signature = inspect.signature(method)
-        except (TypeError, ValueError):  # compiled: nothing is known of it
-            continue
-        try:
-            signature.bind(*arguments)
-        except TypeError:
-            call = f"{name}({', '.join(arguments)})"
-            yield f"{name}{signature} cannot be called as {call}: declare {how}"
+_DEVIATIONS = ("stubbornness_deviation", "human_wish_deviation")
+_PAIRS = ("stubbornness", "stubbornness_smoothed", "human_wish", "wish", *_DEVIATIONS)
+_WITHIN = {
+    "stubbornness": (0.0, 1.0),
+    "stubbornness_smoothed": (0.0, 1.0),
+    "utility_loss": (0.0, 1.0),
+    "target_utility": (0.0, 1.0),
+    "interaction": (-2.0, 2.0),
+    "interaction_smoothed": (-2.0, 2.0),
+}
 
 
 def access_hint(error: Exception) -> str:
@@ -71,27 +47,8 @@ def access_hint(error: Exception) -> str:
 
 
 def require_pair(what: str, value: Any, cure: str) -> None:
-    """Raise `Broken` unless a value is an array of two numbers.
-
-    Parameters
-    ----------
-    what : str
-        What was returned where, for the message.
-    value : object
-    cure : str
-        What to return instead.
-    """
-    if not isinstance(value, np.ndarray):
-        raise Broken(f"{what} {_brief(value)}, no NumPy array: {cure}")
-    if value.shape != (2,):
-        raise Broken(f"{what} an array of shape {value.shape}: {cure}")
-    if value.dtype.kind not in "fiu":
-        raise Broken(f"{what} an array of {value.dtype} instead of numbers: {cure}")
-
-
-def _brief(value: Any) -> str:
-    text = " ".join(repr(value).split())
-    return text if len(text) <= 60 else f"{text[:57]}..."
+    """Raise `Broken` unless a value is an array of two numbers (see `require_array`)."""
+    require_array(what, value, (2,), cure)
 
 
 def force_faults(force: Array) -> Iterator[str]:
@@ -124,7 +81,7 @@ def truth_faults(truth: Any) -> Iterator[str]:
     """Yield what is wrong with a `Truth`."""
     if not isinstance(truth, Truth):
         cure = "return Truth(wish=np.array([v, omega]), stubbornness=np.array([s_v, s_omega]))"
-        raise Broken(f"truth returned {_brief(truth)}: {cure}")
+        raise Broken(f"truth returned {brief(truth)}: {cure}")
     for name in ("wish", "stubbornness"):
         value = getattr(truth, name)
         require_pair(f"truth().{name} is", value, _CURE)
@@ -141,29 +98,30 @@ def truth_faults(truth: Any) -> Iterator[str]:
 
 def twist_faults(twist: Array) -> Iterator[str]:
     """Yield what is wrong with a twist, m/s and rad/s."""
-    lower, upper = (np.asarray(end) for end in (SITUATION.bounds.lower, SITUATION.bounds.upper))
+    lower, upper = (np.asarray(end) for end in (BOUNDS.lower, BOUNDS.upper))
     if not np.isfinite(twist).all():
         yield f"act returned {twist}: every twist must be finite"
     elif (twist < lower - 1e-9).any() or (twist > upper + 1e-9).any():
         yield "act leaves the situation's bounds: clip to situation.bounds.lower and .upper"
 
 
-def belief_faults(belief: Any) -> Iterator[str]:
-    """Yield what is wrong with a `Belief`."""
+def belief_faults(belief: Any, columns: Mapping[str, str]) -> Iterator[str]:
+    """Yield what is wrong with a `Belief`, extras by the ``columns`` that are declared."""
     if not isinstance(belief, Belief):
         cure = "return Belief(), NaN where there is no opinion"
-        raise Broken(f"belief returned {_brief(belief)}: {cure}")
-    for name in ("stubbornness", "stubbornness_smoothed", "human_wish", "wish"):
+        raise Broken(f"belief returned {brief(belief)}: {cure}")
+    for name in _PAIRS:
         require_pair(f"belief().{name} is", getattr(belief, name), _CURE)
     for name in (*_SCALARS, "negotiation"):
         value = np.asarray(getattr(belief, name))
         if value.ndim or value.dtype.kind not in "fiu":
             cure = "return one number" + ("" if name == "negotiation" else ", NaN for no opinion")
-            raise Broken(f"belief().{name} is {_brief(getattr(belief, name))}: {cure}")
-    within = {"stubbornness": (0.0, 1.0), "stubbornness_smoothed": (0.0, 1.0)}
-    within |= {"utility_loss": (0.0, 1.0), "target_utility": (0.0, 1.0)}
-    within |= {"interaction": (-2.0, 2.0), "interaction_smoothed": (-2.0, 2.0)}
-    for name, (low, high) in within.items():
+            raise Broken(f"belief().{name} is {brief(getattr(belief, name))}: {cure}")
+    for name, (low, high) in _WITHIN.items():
         value = np.asarray(getattr(belief, name))
         if ((value < low - 1e-9) | (value > high + 1e-9)).any():
             yield f"belief().{name} leaves [{low:g}, {high:g}]: clip it, or leave it NaN"
+    for name in _DEVIATIONS:
+        if (getattr(belief, name) < 0.0).any():
+            yield f"belief().{name} is below 0: give a standard deviation, or leave it NaN"
+    yield from extra_faults("belief().extras", belief.extras, columns)

@@ -9,11 +9,15 @@ from cowalk.sim.basics.rates import Rates
 
 
 class FrontEnd(Protocol):
-    """Cleans the measured wrench at the sensor's rate, before any estimator reads it."""
+    """Cleans the measured wrench at the sensor's rate, before any estimator reads it.
+
+    A constant comes out as it went in, unless the class says ``passes_constant = False``, as one
+    that removes a bias does.
+    """
 
     @property
     def delay(self) -> float:
-        """By how much a slow change comes later than it went in, s; known after `reset`."""
+        """By how much a signal of 0.3 Hz comes later than it went in, s; known after `reset`."""
         ...
 
     def reset(self, rates: Rates) -> None:

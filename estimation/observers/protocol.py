@@ -87,7 +87,8 @@ class Observer(Protocol):
     """Hears every control step and says what it makes of the human.
 
     An observer that has numbers of its own to log declares them: ``columns``, a mapping from a
-    name to its unit. They become columns of the trace.
+    name to its unit. They become columns of the trace. One that does not listen to the force says
+    ``reads_force = False``.
     """
 
     def reset(self, situation: Situation, reading: ForceReading, rng: np.random.Generator) -> None:

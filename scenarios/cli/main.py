@@ -203,20 +203,24 @@ def check(
     from cowalk.sim.basics.errors import InputError
 
     from ..files.loading import faults, find
-    from ..files.own_parts import own_part_faults
+    from ..files.own_parts import judge_own_part
 
     code = PASSED
     for file in files:
         part = ":" in file and not Path(file).exists()
+        kind = ""
         try:
-            found = own_part_faults(file) if part else list(map(str, faults(find(file))))
+            if part:
+                kind, found = judge_own_part(file)
+            else:
+                found = list(map(str, faults(find(file))))
         except InputError as error:
             if part:  # there is nothing to check
                 complain(str(error))
                 code = BAD_INPUT
                 continue
             found = [str(error)]
-        print("\n".join(found) if found else f"{file}: no fault")
+        print("\n".join(found) if found else f"{file}: no fault{f' ({kind})' * bool(kind)}")
         code = BAD_INPUT if found else code
     return code
 

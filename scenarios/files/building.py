@@ -22,6 +22,7 @@ T = TypeVar("T")
 
 _CONFIG = ConfigDict(extra="forbid", arbitrary_types_allowed=True)
 _PLAIN = (bool, int, float, str, tuple)
+_OPEN = inspect.Parameter.VAR_KEYWORD
 _KEYWORDS = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
 
 
@@ -156,8 +157,21 @@ def _elsewhere(place: str) -> str:
     return f"set this at {place}" if place else "a scenario cannot set this"
 
 
+def _parameters(constructor: Callable[..., Any]) -> dict[str, inspect.Parameter]:
+    """Return the parameters of a constructor; ``**kwargs`` of a class go to the class above."""
+    found = dict(inspect.signature(constructor).parameters)
+    for above in constructor.__mro__[1:-1] if isinstance(constructor, type) else ():
+        handed_on = [name for name, item in found.items() if item.kind is _OPEN]
+        if not handed_on:
+            break
+        if "__init__" in vars(above):
+            found.pop(handed_on[0])
+            found = dict(inspect.signature(above).parameters) | found
+    return found
+
+
 def _accepted(constructor: Callable[..., Any]) -> dict[str, inspect.Parameter]:
-    parameters = inspect.signature(constructor).parameters
+    parameters = _parameters(constructor)
     return {name: item for name, item in parameters.items() if item.kind in _KEYWORDS}
 
 
@@ -192,10 +206,7 @@ def _model_of(
             hints.get(name, Any),
             Field(... if required else None, alias=name),
         )
-    open_ended = any(
-        item.kind is inspect.Parameter.VAR_KEYWORD
-        for item in inspect.signature(constructor).parameters.values()
-    )
+    open_ended = any(item.kind is _OPEN for item in _parameters(constructor).values())
     config = _CONFIG | ConfigDict(extra="allow") if open_ended else _CONFIG
     return create_model("Parameters", __config__=config, **fields), names
 
@@ -211,11 +222,19 @@ def _hints(constructor: Callable[..., Any]) -> dict[str, Any]:
         sources = [constructor.__init__]
     hints: dict[str, Any] = {}
     for source in sources:
-        try:
-            hints = get_type_hints(source, include_extras=True) | hints
-        except (NameError, TypeError, AttributeError):
-            continue  # annotated for the type checker alone; the names still count
+        hints = _hints_of(source) | hints
+    known = inspect.signature(constructor).parameters
+    for above in constructor.__mro__[1:-1] if isinstance(constructor, type) else ():
+        more = _hints_of(above.__init__)  # type: ignore[misc] # of what **kwargs hand on
+        hints = {name: hint for name, hint in more.items() if name not in known} | hints
     return hints
+
+
+def _hints_of(source: Any) -> dict[str, Any]:
+    try:
+        return get_type_hints(source, include_extras=True)
+    except (NameError, TypeError, AttributeError):
+        return {}  # annotated for the type checker alone; the names still count
 
 
 def _checkable(hint: Any) -> Any:

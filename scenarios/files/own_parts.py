@@ -3,16 +3,31 @@
 from __future__ import annotations
 
 import inspect
-from typing import Any, cast
+from typing import Any, NamedTuple, cast
 
 from cowalk.sim.basics.errors import InputError
-from cowalk.sim.basics.registry import Registry, import_address, marked_kind
+from cowalk.sim.basics.registry import Registry, import_address, marked_kind, takes
 
+from ..trace.columns import all_columns
 from .parts import Part, parts
 
 
-def own_part_faults(address: str) -> list[str]:
-    """Return every fault of a part of one's own, each with its cure.
+class OwnPart(NamedTuple):
+    """A part of one's own, judged.
+
+    Attributes
+    ----------
+    kind : str
+    faults : list of str
+        Each with its cure.
+    """
+
+    kind: str
+    faults: list[str]
+
+
+def judge_own_part(address: str) -> OwnPart:
+    """Return which kind of part it is that a user has written, and every fault of it.
 
     Parameters
     ----------
@@ -37,10 +52,11 @@ def own_part_faults(address: str) -> list[str]:
         raise InputError(f"{address!r} is no part of any kind; what each needs is {kinds}")
     check = part.own_faults()
     problems = check(found) if check else []
+    problems += _column_faults(found)
     if not _registry(part).suits(found):
         what = f"taken for a part of the kind {part.kind!r}: "
         problems = [f"{what}{problem}" for problem in problems or [_lacking(part, found)]]
-    return [f"{address}: {problem}" for problem in problems]
+    return OwnPart(part.kind, [f"{address}: {problem}" for problem in problems])
 
 
 def kind_of(found: Any) -> Part | None:
@@ -51,13 +67,34 @@ def kind_of(found: Any) -> Part | None:
     suited = [part for part in kinds if _registry(part).suits(found) and _wraps(part, found)]
     if suited:
         return max(suited, key=lambda part: bool(part.wraps))  # the more special kind
-    known = {
-        part.kind: sum(callable(getattr(found, name, None)) for name in _registry(part).calls)
-        / len(_registry(part).calls)
-        for part in kinds
-    }
-    nearest = max(kinds, key=lambda part: known[part.kind])
-    return nearest if known[nearest.kind] > 0.0 else None
+    nearest = max(kinds, key=lambda part: _likeness(part, found))
+    return nearest if _likeness(nearest, found)[0] else None
+
+
+def _likeness(part: Part, found: type) -> tuple[float, ...]:
+    """Return how much a class is like a kind of part: the shares of its methods and arguments."""
+    calls = _registry(part).calls
+    methods = {name: getattr(found, name) for name in calls if callable(getattr(found, name, None))}
+    taken = sum(takes(method, len(calls[name])) for name, method in methods.items())
+    named = [set(calls[name]) & _arguments(method) for name, method in methods.items()]
+    return len(methods) / len(calls), taken / len(calls), sum(map(len, named))
+
+
+def _arguments(method: Any) -> set[str]:
+    try:
+        return set(inspect.signature(method).parameters)
+    except ValueError:  # compiled: nothing is known of it
+        return set()
+
+
+def _column_faults(found: Any) -> list[str]:
+    """Return why a trace cannot take the columns that a class declares."""
+    columns = getattr(found, "columns", None)
+    try:
+        all_columns(columns if isinstance(columns, dict) else {})
+    except InputError as error:
+        return [str(error)]
+    return []
 
 
 def _classes() -> list[Part]:
@@ -75,7 +112,6 @@ def _wraps(part: Part, found: type) -> bool:
 def _lacking(part: Part, found: Any) -> str:
     registry = _registry(part)
     methods = ", ".join(
-        f"{name} with {count} argument{'' if count == 1 else 's'}"
-        for name, count in registry.calls.items()
+        f"{name}({', '.join(arguments)})" for name, arguments in registry.calls.items()
     )
     return registry.mismatch(found) or f"a {part.kind} is called by {methods}"

@@ -145,6 +145,7 @@ PARTS: tuple[Part, ...] = (
         "front-ends",
         ("automation", "front_end"),
         "cowalk.estimation.registry:FRONT_ENDS",
+        check="cowalk.estimation.checks.front_ends:front_end_problems",
         default="none",
     ),
     Part(
@@ -152,6 +153,7 @@ PARTS: tuple[Part, ...] = (
         "smoothers",
         ("automation", "smoother"),
         "cowalk.estimation.registry:SMOOTHERS",
+        check="cowalk.estimation.checks.smoothers:smoother_problems",
         default="moving-average",
     ),
     Part(
@@ -159,6 +161,7 @@ PARTS: tuple[Part, ...] = (
         "observers",
         ("automation", "observer"),
         "cowalk.estimation.registry:OBSERVERS",
+        check="cowalk.estimation.checks.observers:observer_problems",
         default="paper",
     ),
     Part(

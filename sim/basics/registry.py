@@ -184,7 +184,7 @@ class Registry(Generic[T]):
         if not isinstance(found, type):
             return marked_kind(found) == self.kind
         return self.mismatch(found) is None and all(
-            _takes(getattr(found, name), count) for name, count in self.calls.items()
+            takes(getattr(found, name), len(given)) for name, given in self.calls.items()
         )
 
     def describe(self, name: str) -> str:
@@ -196,18 +196,18 @@ class Registry(Generic[T]):
         return text.strip().partition("\n")[0]
 
 
-def _calls(protocol: type[Any]) -> dict[str, int]:
-    """Return the methods of a protocol, and how many arguments each is called with."""
+def _calls(protocol: type[Any]) -> dict[str, tuple[str, ...]]:
+    """Return the methods of a protocol, and the arguments that each is called with."""
     return {
-        name: len(inspect.signature(method).parameters) - 1
+        name: tuple(inspect.signature(method).parameters)[1:]
         for kind in reversed(protocol.__mro__)
         for name, method in vars(kind).items()
         if inspect.isfunction(method) and not name.startswith("_")
     }
 
 
-def _takes(method: Any, count: int) -> bool:
-    """Return whether a method of a class can be called with so many arguments."""
+def takes(method: Any, count: int) -> bool:
+    """Return whether a method, looked up in its class, can be called with so many arguments."""
     own = 0 if inspect.ismethod(method) else 1
     try:
         inspect.signature(method).bind(*range(own + count))

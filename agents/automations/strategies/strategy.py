@@ -170,6 +170,8 @@ class Strategy(ABC):
                 number=self._belief.negotiation,
             )
         )
+        if not isinstance(agreed, Agreement):
+            raise PartError(self, f"agree() gave {_shape(agreed)}; it must be an Agreement")
         self._twist = agreed.twist
         self._belief = Belief(
             stubbornness=estimate.stubbornness,

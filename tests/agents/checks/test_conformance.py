@@ -3,9 +3,19 @@
 import numpy as np
 import pytest
 
-from cowalk.agents import AUTOMATIONS, HUMANS, Belief, Truth, check_automation, check_human
+from cowalk.agents import (
+    AUTOMATIONS,
+    HUMANS,
+    Agreement,
+    Belief,
+    Strategy,
+    Truth,
+    check_automation,
+    check_human,
+)
 from cowalk.agents.checks.conformance import automation_problems, human_problems
 from cowalk.agents.checks.walk import observations
+from cowalk.estimation import Estimate
 from cowalk.sim.basics.errors import InputError
 
 
@@ -270,10 +280,8 @@ FAULTS = {
 
 @pytest.mark.parametrize("faulty", list(FAULTS), ids=lambda item: item.__name__)
 def test_a_fault_is_named_with_its_cure(faulty):
-    state = np.random.get_state()  # noqa: NPY002 - one of the classes changes it
     with pytest.raises(InputError, match=f"^{faulty.__name__}: .*{FAULTS[faulty]}"):
         check_human(faulty)
-    np.random.set_state(state)  # noqa: NPY002
     assert "\n" not in " ".join(human_problems(faulty))
 
 
@@ -397,3 +405,114 @@ def test_a_good_automation_passes():
 @pytest.mark.parametrize("name", AUTOMATIONS.names())
 def test_every_automation_that_ships_passes(name):
     assert automation_problems(AUTOMATIONS.get(name)()) == []
+
+
+class Conceding(Strategy):
+    """A strategy in a few lines; each class below breaks it in one way."""
+
+    columns = {"patience": "1"}  # noqa: RUF012 - as a user writes it
+
+    def __init__(self, share: float = 0.5, **parts):
+        super().__init__(**parts)
+        self.share = share
+
+    def agree(self, negotiation):
+        twist = self.share * negotiation.own + (1.0 - self.share) * negotiation.human
+        return Agreement(twist, extras={"patience": self.share})
+
+
+class Abstract(Strategy):
+    pass
+
+
+class NoDecision(Conceding):
+    def agree(self, negotiation):
+        return negotiation.own
+
+
+class Undeclared(Conceding):
+    columns = {}  # noqa: RUF012
+
+
+class ManyExtras(Conceding):
+    def agree(self, negotiation):
+        return Agreement(negotiation.human, extras={"patience": negotiation.own})
+
+
+class TextForColumns(Follower):
+    columns = "patience"
+
+
+class Scribbler(Conceding):
+    def agree(self, negotiation):
+        negotiation.own[1] += 0.01
+        return super().agree(negotiation)
+
+
+class ScribblesOnTheEstimate(Conceding):
+    def agree(self, negotiation):
+        negotiation.estimate.stubbornness[:] = 0.0
+        return super().agree(negotiation)
+
+
+class Alone(Conceding):
+    def __init__(self, share: float = 0.5):
+        super().__init__(share)
+
+
+class Negative(Follower):
+    def belief(self):
+        return Belief(human_wish_deviation=np.array([-0.1, 0.1]))
+
+
+class OneDeviation(Follower):
+    def belief(self):
+        return Belief(stubbornness_deviation=0.1)
+
+
+class ExtraBelief(Follower):
+    def belief(self):
+        return Belief(extras={"mood": 0.5})
+
+
+@pytest.mark.parametrize(
+    ("faulty", "message"),
+    [
+        (Abstract, "there is no method 'agree': add it"),
+        (NoDecision, "act fails at step 0: agree.. gave an array of .*; it must be an Agreement"),
+        (Undeclared, r"belief\(\).extras has 'patience', columns declares nothing: add it there"),
+        (ManyExtras, r"belief\(\).extras\['patience'\] is array\(.*: give one number"),
+        (TextForColumns, r"columns is 'patience': give units by name, \{'urgency': '1'\}"),
+        (Scribbler, "agree changes negotiation.own: work on a copy"),
+        (ScribblesOnTheEstimate, "agree changes negotiation.estimate.stubbornness: work on a copy"),
+        (Alone, "does not take negotiation, front_end, observer, smoother, .* no effect: declare"),
+        (Negative, r"belief\(\).human_wish_deviation is below 0: give a standard deviation"),
+        (OneDeviation, r"belief\(\).stubbornness_deviation is 0.1, no NumPy array: " + PAIR),
+        (ExtraBelief, r"belief\(\).extras has 'mood', columns declares nothing: add it there"),
+    ],
+)
+def test_a_faulty_strategy_or_belief_is_told_the_cure(faulty, message):
+    with pytest.raises(InputError, match=message):
+        check_automation(faulty)
+
+
+def test_a_good_strategy_passes_and_is_left_as_it_was():
+    strategy = Conceding()
+    check_automation(strategy)
+    assert "agree" not in vars(strategy)
+    check_automation(Conceding)
+
+
+def test_a_strategy_adds_what_its_observer_adds(monkeypatch):
+    class Counting:
+        columns = {"heard": "1"}  # noqa: RUF012
+
+        def reset(self, situation, reading, rng):
+            self.heard = 0
+
+        def update(self, sample, own_wish):
+            self.heard += 1
+            wish = np.clip(own_wish + 0.1 * sample.force.mean(axis=0), (0.0, -0.5), (1.2, 0.5))
+            return Estimate(np.zeros(2), wish, extras={"heard": self.heard})
+
+    check_automation(Conceding(observer=Counting()))

@@ -105,7 +105,7 @@ def test_check_takes_an_agent(cowalk, tmp_path, monkeypatch):
         "return Truth(wish=np.array([v, omega]), stubbornness=np.array([s_v, s_omega]))\n"
     )
     code, out, _ = cowalk("check", "cowalk.agents.humans.steady:SteadyHuman")
-    assert (code, out) == (0, "cowalk.agents.humans.steady:SteadyHuman: no fault\n")
+    assert (code, out) == (0, "cowalk.agents.humans.steady:SteadyHuman: no fault (human)\n")
 
 
 def test_an_agent_that_cannot_be_found_is_an_error_like_any_other(cowalk, folder):

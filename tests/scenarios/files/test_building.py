@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import ArrayLike
 
-from cowalk.scenarios.files.building import build, check_parameters
+from cowalk.scenarios.files.building import build, check_parameters, complete
 from cowalk.scenarios.files.schema import Component
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.registry import Registry, part
@@ -163,3 +163,25 @@ def test_checking_reports_every_problem_and_builds_nothing():
     )
     assert [problem.path[-1] for problem in problems] == ["rates", "speed", "stepps"]
     assert check_parameters(WALKERS, component(speed=-1.0), ("robot",), {}) == []
+
+
+class Above:
+    def __init__(self, observer: str = "none", window: int = 5) -> None:
+        self.observer, self.window = observer, window
+
+
+class HandsOn(Above):
+    def __init__(self, share: float = 0.5, **parts: object) -> None:
+        super().__init__(**parts)
+        self.share = share
+
+
+def test_keywords_that_a_class_hands_on_are_those_of_the_class_above():
+    names = Registry("thing", {"hands-on": f"{__name__}:HandsOn"})
+    component = Component(name="hands-on", parameters={"window": 7})
+    made = build(names, component, ("thing",), observer="paper")
+    assert (made.observer, made.window, made.share) == ("paper", 7, 0.5)
+    assert complete(names, component, ("observer",)) == {"window": 7, "share": 0.5}
+    for wrong, said in (({"window": "x"}, "thing.parameters.window"), ({"windw": 7}, "windw")):
+        with pytest.raises(InputError, match=said):
+            build(names, Component(name="hands-on", parameters=wrong), ("thing",))

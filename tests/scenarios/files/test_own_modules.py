@@ -7,7 +7,7 @@ import pytest
 from joblib import Parallel, delayed
 
 from cowalk.scenarios import load, run
-from cowalk.scenarios.files.own_parts import kind_of, own_part_faults
+from cowalk.scenarios.files.own_parts import judge_own_part, kind_of
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.registry import part
 
@@ -107,7 +107,7 @@ def test_nothing_is_called_that_is_no_part(scenario_file, monkeypatch, name):
     with pytest.raises(InputError, match=r"is not a class; mark a function|has no method 'reset'"):
         load(file)
     with pytest.raises(InputError, match="is no part of any kind"):
-        own_part_faults(name)
+        judge_own_part(name)
     assert not called
 
 
@@ -151,18 +151,23 @@ def test_the_kind_of_a_part_is_found_by_how_it_is_called(address, kind):
     found = kind_of(import_address(address))
     assert found is not None
     assert found.kind == kind
-    assert own_part_faults(address) == []
+    assert judge_own_part(address) == (kind, [])
 
 
 def test_a_part_that_lacks_a_method_is_taken_for_the_nearest_kind(folder):
     (folder / "nearly_parts.py").write_text(
         "class NoTruth:\n    def reset(self, rng, situation): pass\n"
         "    def act(self, observation): pass\n    def tell(self): pass\n"
-        "class Odd:\n    def reset(self): pass\n    def update(self): pass\n"
+        "class Odd:\n    def reset(self, initial, last): pass\n    def update(self): pass\n"
+        "class Still:\n    def reset(self, world, rng): pass\n    def step(self, a, b): pass\n"
     )
-    (said,) = own_part_faults("nearly_parts:NoTruth")
+    (said,) = judge_own_part("nearly_parts:NoTruth").faults
     assert "taken for a part of the kind 'human': there is no method 'truth'" in said
-    assert "is called by reset with" in "".join(own_part_faults("nearly_parts:Odd"))
+    (reset, update) = judge_own_part("nearly_parts:Odd").faults
+    assert "taken for a part of the kind 'smoother': reset(initial, last) cannot be" in reset
+    assert "update() cannot be called as update(value): declare update(self, value)" in update
+    said = judge_own_part("nearly_parts:Still").faults
+    assert said[0].endswith("'plant': has no method 'close'; a plant needs reset, step, close")
 
 
 def test_a_mark_is_of_one_kind():

@@ -121,7 +121,11 @@ def test_a_new_kind_of_part_is_one_row(planner, cowalk, scenario_file):
     assert result.summary["planner"] == "slow"
     assert result.trace["v"][-1] == pytest.approx(0.6, rel=1e-3)
     assert pickle.loads(pickle.dumps(scenario)) == scenario
-    assert cowalk("check", "planners_of_mine:Slow") == (0, "planners_of_mine:Slow: no fault\n", "")
+    assert cowalk("check", "planners_of_mine:Slow") == (
+        0,
+        "planners_of_mine:Slow: no fault (planner)\n",
+        "",
+    )
 
 
 def test_without_its_row_the_kind_is_unknown_again(scenario_file):

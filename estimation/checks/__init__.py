@@ -1,0 +1,1 @@
+"""Checks that find what is wrong with an estimator of one's own before it spoils a run."""
