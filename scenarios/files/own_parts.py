@@ -71,13 +71,13 @@ def kind_of(found: Any) -> Part | None:
     return nearest if _likeness(nearest, found)[0] else None
 
 
-def _likeness(part: Part, found: type) -> tuple[float, ...]:
-    """Return how much a class is like a kind of part: the shares of its methods and arguments."""
+def _likeness(part: Part, found: type) -> tuple[int, ...]:
+    """Return how many methods of a kind of part a class has, takes as called, and names alike."""
     calls = _registry(part).calls
     methods = {name: getattr(found, name) for name in calls if callable(getattr(found, name, None))}
     taken = sum(takes(method, len(calls[name])) for name, method in methods.items())
     named = [set(calls[name]) & _arguments(method) for name, method in methods.items()]
-    return len(methods) / len(calls), taken / len(calls), sum(map(len, named))
+    return len(methods), taken, sum(map(len, named))
 
 
 def _arguments(method: Any) -> set[str]:

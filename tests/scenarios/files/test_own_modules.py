@@ -167,7 +167,7 @@ def test_a_part_that_lacks_a_method_is_taken_for_the_nearest_kind(folder):
     assert "taken for a part of the kind 'smoother': reset(initial, last) cannot be" in reset
     assert "update() cannot be called as update(value): declare update(self, value)" in update
     said = judge_own_part("nearly_parts:Still").faults
-    assert said[0].endswith("'plant': has no method 'close'; a plant needs reset, step, close")
+    assert "kind 'plant': has no method 'save'; a plant needs reset, step, save" in said[0]
 
 
 def test_a_mark_is_of_one_kind():
