@@ -1,14 +1,17 @@
-"""The commands that run many scenarios: the paper reproduced, smoothers compared."""
+"""The commands that run many scenarios: the paper reproduced, parts of a kind compared."""
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
+from cowalk.sim.basics.registry import import_address
+
+from ..files.parts import Part, parts
 from .changes import Changes, changing, load_changed, option
 from .output import FAILED, PASSED, Json, emit_json, emit_table, progress_bar
 
@@ -24,14 +27,17 @@ def register(app: typer.Typer) -> None:
         )
     )(paper)
     compare = typer.Typer(rich_markup_mode=None, help="Compare all parts of a kind.")
-    compare.command(
-        name="smoothers",
-        epilog=(
-            "\b\nExamples:\n"
-            "  cowalk compare smoothers\n"
-            "  cowalk compare smoothers puddle --human conceding -n 20 --json"
-        ),
-    )(changing(smoothers))
+    for part in parts():
+        if part.compare:
+            compare.command(
+                name=part.plural,
+                epilog=(
+                    "\b\nExamples:\n"
+                    f"  cowalk compare {part.plural}\n"
+                    f"  cowalk compare {part.plural} puddle --plant unicycle -n 20 --json\n"
+                    f"  cowalk compare {part.plural} --with mymodule:MyClass"
+                ),
+            )(changing(_comparing(part)))
     compare.callback()(lambda: None)
     app.add_typer(compare, name="compare")
 
@@ -90,25 +96,37 @@ def paper(
     return PASSED if all(row.passed for row in rows) else FAILED
 
 
-def smoothers(
-    changes: Changes,
-    scenario: Annotated[
-        str, typer.Argument(metavar="SCENARIO", help="Name in the library, or a YAML file.")
-    ] = "puddle",
-    seeds: Annotated[int, typer.Option("-n", metavar="SEEDS", min=1, help="Runs of each.")] = 5,
-    as_json: Json = False,
-) -> int:
-    """Print every smoother's error and lag against the human's true stubbornness."""
-    from ..studies.smoothers import compare_smoothers
+def _comparing(part: Part) -> Callable[..., int]:
+    """Return the command that compares all parts of a kind."""
 
-    loaded = load_changed(scenario, changes)
-    with progress_bar("comparing") as progress:
-        scores = compare_smoothers(loaded, seeds, progress)
-    if as_json:
-        emit_json({"scenario": loaded.name, "scores": [dataclasses.asdict(s) for s in scores]})
-    else:
-        _records(f"smoothers in {loaded.name}", scores)
-    return PASSED
+    def compare(
+        changes: Changes,
+        scenario: Annotated[
+            str, typer.Argument(metavar="SCENARIO", help="Name in the library, or a YAML file.")
+        ] = "puddle",
+        own: Annotated[
+            list[str] | None,
+            typer.Option(
+                "--with", metavar="MODULE:CLASS", help="One of your own as well; may be repeated."
+            ),
+        ] = None,
+        seeds: Annotated[int, typer.Option("-n", metavar="SEEDS", min=1, help="Runs of each.")] = 5,
+        as_json: Json = False,
+    ) -> int:
+        with option("--with"):
+            for name in own or []:
+                part.registry().get(name)
+        loaded = load_changed(scenario, changes)
+        with progress_bar("comparing") as progress:
+            scores = import_address(part.compare)(loaded, part.kind, own or [], seeds, progress)
+        if as_json:
+            emit_json({"scenario": loaded.name, "scores": [dataclasses.asdict(s) for s in scores]})
+        else:
+            _records(f"{part.plural} in {loaded.name}", scores)
+        return PASSED
+
+    compare.__doc__ = f"Run a scenario with every {part.kind}, your own as well, and score each."
+    return compare
 
 
 def _records(title: str, records: Sequence[Any]) -> None:

@@ -63,6 +63,8 @@ class Part:
         Arguments of its constructor that no scenario sets.
     check : str
         Address of what lists the faults of a user's own class, each with its cure.
+    compare : str
+        Address of the study that runs all of the kind side by side.
     preset : bool
         Whether the name stands for values of the section itself, not for a class.
     """
@@ -78,6 +80,7 @@ class Part:
     given: tuple[str, ...] = ()
     reserved: tuple[str, ...] = ()
     check: str = ""
+    compare: str = ""
     preset: bool = False
 
     @property
@@ -122,6 +125,7 @@ PARTS: tuple[Part, ...] = (
         "cowalk.agents.registry:HUMANS",
         model="cowalk.scenarios.files.schema:HumanComponent",
         check="cowalk.agents.checks.conformance:human_problems",
+        compare="cowalk.scenarios.studies.agents:compare_agents",
     ),
     Part(
         "imperfection",
@@ -139,6 +143,7 @@ PARTS: tuple[Part, ...] = (
         "cowalk.agents.registry:AUTOMATIONS",
         model="cowalk.scenarios.files.schema:AutomationComponent",
         check="cowalk.agents.checks.conformance:automation_problems",
+        compare="cowalk.scenarios.studies.agents:compare_agents",
     ),
     Part(
         "front end",
@@ -146,6 +151,7 @@ PARTS: tuple[Part, ...] = (
         ("automation", "front_end"),
         "cowalk.estimation.registry:FRONT_ENDS",
         check="cowalk.estimation.checks.front_ends:front_end_problems",
+        compare="cowalk.scenarios.studies.estimators:compare_estimators",
         default="none",
     ),
     Part(
@@ -154,6 +160,7 @@ PARTS: tuple[Part, ...] = (
         ("automation", "smoother"),
         "cowalk.estimation.registry:SMOOTHERS",
         check="cowalk.estimation.checks.smoothers:smoother_problems",
+        compare="cowalk.scenarios.studies.estimators:compare_smoothers",
         default="moving-average",
     ),
     Part(
@@ -162,6 +169,7 @@ PARTS: tuple[Part, ...] = (
         ("automation", "observer"),
         "cowalk.estimation.registry:OBSERVERS",
         check="cowalk.estimation.checks.observers:observer_problems",
+        compare="cowalk.scenarios.studies.estimators:compare_estimators",
         default="paper",
     ),
     Part(

@@ -11,7 +11,7 @@ import pytest
 
 from cowalk.scenarios.cli import output as cli_output
 from cowalk.scenarios.studies import calibration, paper
-from cowalk.scenarios.studies import smoothers as compare
+from cowalk.scenarios.studies import estimators as compare
 from cowalk.scenarios.trace.trace import Trace
 
 
@@ -69,6 +69,10 @@ def test_help_imports_nothing_heavy():
         "paper",
         "compare",
         "compare smoothers",
+        "compare observers",
+        "compare front-ends",
+        "compare automations",
+        "compare humans",
         "humans sample",
         "humans show",
         "humans table",
@@ -334,7 +338,8 @@ def test_compare_shows_whatever_scores_there_are(cowalk, scenario_file, monkeypa
         smoother: str
         lag_s: float
 
-    def scores(scenario, seeds, progress):
+    def scores(scenario, kind, own, seeds, progress):
+        assert (kind, own) == ("smoother", [])
         progress(seeds, seeds)
         return [Score(scenario.name, float(seeds)), Score("nothing", float("nan"))]
 
