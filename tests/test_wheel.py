@@ -59,3 +59,9 @@ def test_the_wheel_brings_the_library_and_its_types(installed, tmp_path):
     for part in ("sim", "estimation", "agents", "scenarios"):
         assert (packages / "cowalk" / part / "py.typed").exists()
     assert not (packages / "sim").exists()
+
+
+def test_the_wheel_brings_what_new_parts_start_from(installed, tmp_path):
+    call(installed / "bin" / "cowalk", "new", "smoother", "my_smoother", cwd=tmp_path)
+    checked = call(installed / "bin" / "cowalk", "check", "my_smoother:MySmoother", cwd=tmp_path)
+    assert checked == "my_smoother:MySmoother: no fault (smoother)\n"

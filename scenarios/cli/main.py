@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from . import humans, listing, studies
+from . import humans, listing, new, studies
 from .changes import Changes, changing, option, read_changed
 from .output import (
     BAD_INPUT,
@@ -70,6 +70,7 @@ def command_line() -> typer.Typer:
     listing.register(app)
     humans.register(app)
     studies.register(app)
+    new.register(app)
     return app
 
 

@@ -73,6 +73,7 @@ def test_help_imports_nothing_heavy():
         "compare front-ends",
         "compare automations",
         "compare humans",
+        "new",
         "humans sample",
         "humans show",
         "humans table",
