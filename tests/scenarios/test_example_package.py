@@ -51,7 +51,7 @@ def test_the_module_takes_less_than_thirty_lines():
 
 
 def test_the_documents_show_the_package_as_it_is():
-    page = (EXAMPLE.parents[1] / "humans.md").read_text(encoding="utf-8")
+    page = (EXAMPLE.parents[1] / "write-your-own.md").read_text(encoding="utf-8")
     assert f"```python\n{(EXAMPLE / 'hesitant_human.py').read_text()}```" in page
     points = (EXAMPLE / "pyproject.toml").read_text().partition("[project.entry-points")[2]
     assert f"[project.entry-points{points.partition('[tool')[0].rstrip()}\n```" in page
