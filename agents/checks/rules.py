@@ -54,7 +54,7 @@ def require_pair(what: str, value: Any, cure: str) -> None:
 def force_faults(force: Array) -> Iterator[str]:
     """Yield what is wrong with a hand force, N."""
     if not np.isfinite(force).all():
-        yield f"act returned {force}: every force must be finite; do you divide by a speed of 0?"
+        yield "act returned a force that is not finite: every one must be; divided by 0?"
     elif np.abs(force).max() > FORCE_PLAUSIBLE:
         yield (
             f"act returned more than {FORCE_PLAUSIBLE:g} N, no hand pushes like that: return N, "
@@ -100,7 +100,7 @@ def twist_faults(twist: Array) -> Iterator[str]:
     """Yield what is wrong with a twist, m/s and rad/s."""
     lower, upper = (np.asarray(end) for end in (BOUNDS.lower, BOUNDS.upper))
     if not np.isfinite(twist).all():
-        yield f"act returned {twist}: every twist must be finite"
+        yield "act returned a twist that is not finite: every one must be"
     elif (twist < lower - 1e-9).any() or (twist > upper + 1e-9).any():
         yield "act leaves the situation's bounds: clip to situation.bounds.lower and .upper"
 

@@ -150,7 +150,7 @@ def _estimate_faults(estimate: Any, columns: Mapping[str, str]) -> Iterator[str]
     for name in ("stubbornness_deviation", "wish_deviation"):
         value = getattr(estimate, name)
         if (value < 0.0).any() or np.isinf(value).any():
-            yield f"Estimate.{name} is {value}: give a standard deviation, or NaN for none"
+            yield f"Estimate.{name} is negative or infinite: give a standard deviation, or NaN"
     yield from extra_faults("Estimate.extras", estimate.extras, columns)
     for name in columns:
         if name not in estimate.extras:

@@ -245,7 +245,13 @@ def column_faults(columns: Any) -> Iterator[str]:
 
 
 def extra_faults(what: str, extras: Any, columns: Mapping[str, str]) -> Iterator[str]:
-    """Yield what is wrong with numbers that a part adds to the trace, by the columns declared."""
+    """Yield which numbers that a part adds to the trace are not declared as columns.
+
+    Raises
+    ------
+    Broken
+        If they are no numbers by name.
+    """
     if not isinstance(extras, Mapping):
         raise Broken(f"{what} is {brief(extras)}: give a number by name, {{'urgency': 0.5}}")
     for name, value in extras.items():
@@ -253,7 +259,7 @@ def extra_faults(what: str, extras: Any, columns: Mapping[str, str]) -> Iterator
             declared = ", ".join(columns) or "nothing"
             yield f"{what} has {name!r}, columns declares {declared}: add it there with its unit"
         if not is_number(value):
-            yield f"{what}[{name!r}] is {brief(value)}: give one number"
+            raise Broken(f"{what}[{name!r}] is {brief(value)}: give one number")
 
 
 def is_number(value: Any) -> bool:

@@ -57,7 +57,7 @@ def new(
     if kind not in startable():
         raise InputError(f"unknown kind {kind!r}; {did_you_mean(kind, startable())}")
     if kind == SCENARIO:
-        file, written = Path(f"{_plain(name)}.scenario.yaml"), name
+        file, what = Path(f"{_plain(name)}.scenario.yaml"), SCENARIO
         commands = [
             f"cowalk check {file}",
             f"cowalk run {file}",
@@ -66,6 +66,7 @@ def new(
     else:
         part = next(part for part in parts() if _word(part) == kind)
         file, written = Path(f"{_importable(name)}.py"), f"{name}:{camel_case(name)}"
+        what = f"{kind} {camel_case(name)}"
         commands = [
             f"cowalk check {written}",
             f"cowalk run puddle --{part.flag} {written}",
@@ -79,7 +80,7 @@ def new(
         raise InputError(f"{file} is there already: give another name") from None
     except OSError as error:
         raise InputError(f"{file}: cannot be written ({error.strerror})") from error
-    print(f"{file}: {written}, a {kind} to change. Next:")
+    print(f"wrote {file}, {what}; next:")
     print("\n".join(f"  {command}" for command in commands))
     return PASSED
 

@@ -51,7 +51,7 @@ class ThreeForces(Good):
 
 class DividesByZero(Good):
     def act(self, observation):
-        return np.array([0.0, np.nan])
+        return np.array([observation["twist"][0], np.nan])
 
 
 class Millinewtons(Good):
@@ -248,7 +248,7 @@ FAULTS = {
     NoTruth: "there is no method 'truth': add truth",
     AsList: r"act returned \[0.0, 1.0\], no NumPy array: " + FORCE,
     ThreeForces: r"act returned an array of shape \(3,\): " + FORCE,
-    DividesByZero: "must be finite",
+    DividesByZero: "act returned a force that is not finite: every one must be",
     Millinewtons: "more than 100 N",
     OddKey: "act fails at step 0: KeyError.*has the keys twist, force",
     Remembers: "differ from step 0 on: set all state in reset",
@@ -282,7 +282,9 @@ FAULTS = {
 def test_a_fault_is_named_with_its_cure(faulty):
     with pytest.raises(InputError, match=f"^{faulty.__name__}: .*{FAULTS[faulty]}"):
         check_human(faulty)
-    assert "\n" not in " ".join(human_problems(faulty))
+    found = human_problems(faulty)
+    assert "\n" not in " ".join(found)
+    assert len(found) <= 3, "a fault is named once, not at every step"
 
 
 def test_a_force_that_is_not_finite_is_one_fault():
@@ -345,6 +347,11 @@ class Unbounded(Follower):
         return 10.0 * super().act(observation)
 
 
+class NoTwist(Follower):
+    def act(self, observation):
+        return super().act(observation) / np.array([1.0, np.nan])
+
+
 class Certain(Follower):
     def belief(self):
         return Belief(target_utility=1.4)
@@ -384,6 +391,7 @@ class NoBelief(Follower):
     ("faulty", "message"),
     [
         (Unbounded, "clip to situation.bounds"),
+        (NoTwist, "^NoTwist: act returned a twist that is not finite: every one must be$"),
         (Certain, r"target_utility leaves \[0, 1\]"),
         (Blind, "its twist is the same however the base moves and is pushed"),
         (AsTuple, r"act returned \(0.8, 0.0\), no NumPy array: return the twist .* np.array\("),

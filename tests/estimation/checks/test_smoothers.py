@@ -165,7 +165,9 @@ FAULTS = {
 def test_a_fault_is_named_with_its_cure(faulty):
     with pytest.raises(InputError, match=f"^{faulty.__name__}: .*{FAULTS[faulty]}"):
         check_smoother(faulty)
-    assert "\n" not in " ".join(smoother_problems(faulty))
+    found = smoother_problems(faulty)
+    assert "\n" not in " ".join(found)
+    assert len(found) <= 3, "a fault is named once, not at every step"
 
 
 def test_a_good_smoother_passes_as_class_as_instance_and_as_marked_function():

@@ -33,7 +33,7 @@ def test_a_start_passes_its_check_and_the_commands_that_are_named_work(kind, cow
     assert (code, error) == (0, "")
     assert f"class {camel_case(name)}" in (here / f"{name}.py").read_text()
     said, *commands = out.splitlines()
-    assert said == f"{name}.py: {name}:{camel_case(name)}, a {kind} to change. Next:"
+    assert said == f"wrote {name}.py, {kind} {camel_case(name)}; next:"
     check, run, compare = (command.split()[1:] for command in commands)
     word = kind.replace("-", " ")
     assert cowalk(*check) == (0, f"{check[1]}: no fault ({word})\n", "")
