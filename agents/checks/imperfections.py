@@ -6,6 +6,7 @@ import inspect
 from typing import Any
 
 from cowalk.estimation.checks.rules import one_line
+from cowalk.sim.basics.registry import marked_kind
 
 from ..humans.steady import SteadyHuman
 from .conformance import human_problems
@@ -20,7 +21,7 @@ def imperfection_problems(imperfection: Any) -> list[str]:
         An instance, or a class that can be built with a human alone.
     """
     checked = imperfection
-    if inspect.isclass(imperfection):
+    if inspect.isclass(imperfection) or marked_kind(imperfection):
         build: Any = imperfection
         try:
             checked = build(human=SteadyHuman())

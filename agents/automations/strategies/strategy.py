@@ -145,6 +145,12 @@ class Strategy(ABC):
         if not isinstance(estimate, Estimate):
             said = f"update() gave {_shape(estimate)}; it must be an Estimate"
             raise PartError(self.observer, said)
+        if not isinstance(estimate.extras, Mapping):
+            said = f"update() gave extras {estimate.extras!r}; they must be numbers by name"
+            raise PartError(self.observer, said)
+        if undeclared := estimate.extras.keys() - self.columns.keys():
+            said = f"update() gave extras {sorted(undeclared)} that its columns do not declare"
+            raise PartError(self.observer, said)
         return estimate
 
     def _negotiate(self, observation: Observation, estimate: Estimate) -> None:

@@ -112,12 +112,17 @@ def test_nothing_is_called_that_is_no_part(scenario_file, monkeypatch, name):
 
 
 MARKED = """\
+from cowalk.agents.imperfections.tremor import Tremor
 from cowalk.agents.humans.steady import SteadyHuman
 from cowalk.sim import part
 
 @part("human")
 def firm(level: float = 0.9):
     return SteadyHuman(level=(level, level))
+
+@part("imperfection")
+def shaky(human):
+    return Tremor(human, share=0.02)
 
 @part("smoother")
 def wide():
@@ -131,6 +136,8 @@ def test_a_function_that_is_marked_builds_a_part(folder, scenario_file):
     assert run(load(file, ["human.parameters.level=0.5"])).error is None
     with pytest.raises(InputError, match="builds a part of another kind: smoother"):
         load(file, ["human=marked_parts:wide"])
+    assert judge_own_part("marked_parts:firm") == ("human", [])
+    assert judge_own_part("marked_parts:shaky") == ("imperfection", [])
 
 
 @pytest.mark.parametrize(

@@ -91,6 +91,10 @@ class Observer(PaperObserver):
             return found.stubbornness, found.wish
         if self.kind == "nan":
             return Estimate(found.stubbornness, found.wish * np.nan)
+        if self.kind == "extras":
+            return Estimate(found.stubbornness, found.wish, extras={"mood": 0.5})
+        if self.kind == "number":
+            return Estimate(found.stubbornness, found.wish, extras=0.5)
         return np.ones(3) @ np.ones(2)
 
 
@@ -106,8 +110,14 @@ class Talker(InteractionStrategy):
         return np.zeros_like(smoothed)
 
     def agree(self, negotiation):
+        if type(self) is Mute:
+            return negotiation.own
         from dataclasses import replace
         return replace(super().agree(negotiation), extras={"hurry": 1.0})
+
+
+class Mute(Talker):
+    pass
 """
 FRONT_END = "automation.front_end=faulty:FrontEnd"
 OBSERVER = "automation.observer=faulty:Observer"
@@ -135,6 +145,16 @@ OBSERVER = "automation.observer=faulty:Observer"
             "gave wish = [nan nan]",
         ),
         (
+            [OBSERVER, "automation.observer.parameters.kind=extras"],
+            "observer 'faulty:Observer'",
+            "gave extras ['mood'] that its columns do not declare",
+        ),
+        (
+            [OBSERVER, "automation.observer.parameters.kind=number"],
+            "observer 'faulty:Observer'",
+            "gave extras 0.5; they must be numbers by name",
+        ),
+        (
             ["human.imperfections=[{name: 'faulty:Imperfect'}]"],
             "imperfection 'faulty:Imperfect'",
             "OSError: no hand",
@@ -143,6 +163,11 @@ OBSERVER = "automation.observer=faulty:Observer"
             ["automation=faulty:Talker"],
             "automation 'faulty:Talker'",
             "belief().extras has 'hurry'; columns declares urgency",
+        ),
+        (
+            ["automation=faulty:Mute"],
+            "automation 'faulty:Mute'",
+            "agree() gave an array of shape (2,); it must be an Agreement",
         ),
     ],
 )
