@@ -486,7 +486,7 @@ class ExtraBelief(Follower):
 @pytest.mark.parametrize(
     ("faulty", "message"),
     [
-        (Abstract, "there is no method 'agree': add it"),
+        (Abstract, r"there is no method 'agree': add agree\(self, negotiation\)"),
         (NoDecision, "act fails at step 0: agree.. gave an array of .*; it must be an Agreement"),
         (Undeclared, r"belief\(\).extras has 'patience', columns declares nothing: add it there"),
         (ManyExtras, r"belief\(\).extras\['patience'\] is array\(.*: give one number"),
