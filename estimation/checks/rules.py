@@ -43,11 +43,11 @@ def problems_of(part: Any, methods: Methods, examine: Callable[[Any], Iterator[s
         Yields the faults of an instance that has these methods; it may raise `Broken`.
     """
     if inspect.isabstract(part):
-        missing = {name: getattr(part, name) for name in sorted(part.__abstractmethods__)}
-        return [
-            f"there is no method {name!r}: add {name}({', '.join(inspect.signature(left).parameters)})"
-            for name, left in missing.items()
-        ]
+        missing = []
+        for name in sorted(part.__abstractmethods__):
+            arguments = ", ".join(inspect.signature(getattr(part, name)).parameters)
+            missing.append(f"there is no method {name!r}: add {name}({arguments})")
+        return missing
     if inspect.isclass(part) or marked_kind(part):
         try:
             part = part()
