@@ -166,7 +166,8 @@ def hull_corners(points: Array) -> NDArray[np.intp]:
     ndarray, shape (corners,)
         Less than three if the points lie on a line: its ends.
     """
-    x, y = points[:, 0].tolist(), points[:, 1].tolist()
+    x: list[float] = points[:, 0].tolist()
+    y: list[float] = points[:, 1].tolist()
 
     def turn(a: int, b: int, c: int) -> float:
         return (x[b] - x[a]) * (y[c] - y[a]) - (y[b] - y[a]) * (x[c] - x[a])
@@ -174,7 +175,7 @@ def hull_corners(points: Array) -> NDArray[np.intp]:
     def side(order: list[int]) -> list[int]:
         kept: list[int] = []
         for c in order:
-            while len(kept) > 1 and turn(*kept[-2:], c) <= 0.0:
+            while len(kept) > 1 and turn(kept[-2], kept[-1], c) <= 0.0:
                 kept.pop()
             kept.append(c)
         return kept[:-1]
