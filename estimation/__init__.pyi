@@ -10,9 +10,12 @@ from .observers.sample import Sample as Sample
 from .registry import FRONT_ENDS as FRONT_ENDS
 from .registry import OBSERVERS as OBSERVERS
 from .registry import SMOOTHERS as SMOOTHERS
+from .scores.error import Score as Score
 from .scores.error import bias as bias
-from .scores.error import lag as lag
+from .scores.error import mean_over_rows as mean_over_rows
 from .scores.error import rmse as rmse
+from .scores.error import squared_error as squared_error
+from .scores.lag import lag as lag
 from .smoothers.kalman import KalmanSmoother as KalmanSmoother
 from .smoothers.moving_average import MovingAverage as MovingAverage
 from .smoothers.protocol import Smoother as Smoother

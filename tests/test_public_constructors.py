@@ -70,6 +70,8 @@ MADE_BY_COWALK = {
     "Truth",
 }
 """What a run hands from part to part: judged where a part returns it, not at every step anew."""
+SCORES = {"Score"}
+"""Results, made by the function or the ``fit`` that judges what they are made of."""
 READ_FROM_FILES = {"Scenario"}
 """Judged by pydantic, fault by fault, before there is one (`cowalk.scenarios.load`)."""
 
@@ -337,7 +339,7 @@ def public():
     seen = set()
     while found:
         kind = found.pop()
-        if kind in seen or kind.__name__ in MADE_BY_COWALK | READ_FROM_FILES:
+        if kind in seen or kind.__name__ in MADE_BY_COWALK | SCORES | READ_FROM_FILES:
             continue
         seen.add(kind)
         found += taken(kind)

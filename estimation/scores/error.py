@@ -1,6 +1,8 @@
-"""How well an estimate follows the truth: error, bias and lag."""
+"""How far an estimate is from the truth, and on how many rows that rests."""
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -8,57 +10,71 @@ from numpy.typing import ArrayLike
 from cowalk.sim.basics.motion import Array
 
 
-def rmse(estimate: ArrayLike, truth: ArrayLike) -> float:
-    """Return the root-mean-square error over all finite samples, in the units of the signals.
+class Score(NamedTuple):
+    """A score, and what it rests on.
+
+    Attributes
+    ----------
+    value : ndarray, shape (...)
+        NaN where there is no row to judge by.
+    share : ndarray, shape (...)
+        Rows judged, as a share of all rows. Whoever is silent where it is hard is shown by it.
+    """
+
+    value: Array
+    share: Array
+
+
+def squared_error(estimate: ArrayLike, truth: ArrayLike, rows: ArrayLike = True) -> Score:
+    """Return the mean squared error: what is averaged over runs and people before the root.
+
+    mean of (estimate - truth)^2 over the rows asked for in which both are known.
 
     Parameters
     ----------
-    estimate, truth : array_like, shape (n,)
-
-    Returns
-    -------
-    float
-        NaN if no pair of samples is finite.
+    estimate, truth : array_like, shape (..., rows)
+        NaN where unknown.
+    rows : array_like of bool, shape (..., rows)
+        Rows to judge by; all, unless given.
     """
-    error = _errors(estimate, truth)
-    return float(np.sqrt(np.mean(error**2))) if error.size else float("nan")
+    return mean_over_rows(np.square(np.subtract(estimate, truth)), rows)
 
 
-def bias(estimate: ArrayLike, truth: ArrayLike) -> float:
-    """Return the mean error, estimate minus truth, over all finite samples."""
-    error = _errors(estimate, truth)
-    return float(np.mean(error)) if error.size else float("nan")
-
-
-def lag(estimate: ArrayLike, truth: ArrayLike, period: float, longest: float = 10.0) -> float:
-    """Return the delay of an estimate behind the truth: the peak of their cross-correlation.
+def rmse(estimate: ArrayLike, truth: ArrayLike, rows: ArrayLike = True) -> Score:
+    """Return the root-mean-square error of one run, in the units of the signals.
 
     Parameters
     ----------
-    estimate, truth : array_like, shape (n,)
-        Finite samples at a constant rate.
-    period : float
-        Sampling period, s.
-    longest : float
-        Longest delay looked for, either way, s.
-
-    Returns
-    -------
-    float
-        Delay in s, positive if the estimate comes later; NaN if either signal is constant.
+    estimate, truth, rows
+        See `squared_error`. Over several runs, average the squares (`mean_over_people`).
     """
-    a, b = np.asarray(estimate, dtype=float), np.asarray(truth, dtype=float)
-    known = np.isfinite(a) & np.isfinite(b)
-    a, b = a[known], b[known]
-    if a.size < 2 or np.ptp(a) < 1e-12 or np.ptp(b) < 1e-12:
-        return float("nan")
-    a, b = a - a.mean(), b - b.mean()
-    delays = np.arange(1 - a.size, a.size)
-    delays = delays[np.abs(delays) * period <= longest]
-    correlation = np.correlate(np.pad(a, delays[-1]), b, "valid")
-    return float(delays[np.argmax(correlation)] * period)
+    square, share = squared_error(estimate, truth, rows)
+    return Score(np.sqrt(square), share)
 
 
-def _errors(estimate: ArrayLike, truth: ArrayLike) -> Array:
-    error = np.asarray(estimate, dtype=float) - np.asarray(truth, dtype=float)
-    return np.asarray(error[np.isfinite(error)])
+def bias(estimate: ArrayLike, truth: ArrayLike, rows: ArrayLike = True) -> Score:
+    """Return the mean error, estimate minus truth, in the units of the signals.
+
+    Parameters
+    ----------
+    estimate, truth, rows
+        See `squared_error`.
+    """
+    return mean_over_rows(np.subtract(estimate, truth), rows)
+
+
+def mean_over_rows(values: ArrayLike, rows: ArrayLike = True) -> Score:
+    """Return the mean of known values over the rows asked for.
+
+    Parameters
+    ----------
+    values : array_like, shape (..., rows)
+        NaN where unknown.
+    rows : array_like of bool, shape (..., rows)
+    """
+    values = np.asarray(values, dtype=float)
+    judged = np.isfinite(values) & np.asarray(rows, dtype=bool)
+    count = judged.sum(axis=-1)
+    total = np.where(judged, values, 0.0).sum(axis=-1)
+    mean = np.where(count > 0, total / np.maximum(count, 1), np.nan)
+    return Score(mean, np.asarray(count / max(judged.shape[-1], 1)))

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from cowalk.estimation.scores.error import bias, lag, rmse
+from cowalk.estimation.scores.error import bias, rmse
+from cowalk.estimation.scores.lag import lag
 from cowalk.sim.basics.motion import Array
 
 from ..files.schema import Scenario
@@ -24,7 +25,8 @@ class SmootherScore:
         Error of the smoothed stubbornness against the true one, 1.
     lag : float
         Delay behind the truth at the peak of the cross-correlation, s. It is negative where
-        the force that is read comes before the stubbornness that it brings about.
+        the force that is read comes before the stubbornness that it brings about, and NaN where
+        no delay can be read in a run (`cowalk.estimation.lag`).
     delay : float
         Delay behind the estimate that went into the smoother, s: the smoother's own.
     unsmoothed_rmse : float
@@ -56,7 +58,8 @@ class EstimateScore:
     rmse, bias : float
         Error of the estimated stubbornness against the true one, 1.
     lag : float
-        Delay behind the truth at the peak of the cross-correlation, s.
+        Delay behind the truth at the peak of the cross-correlation, s; NaN where no delay can
+        be read in a run.
     wish_rmse : float
         Error of the estimated wish against the true one, rad/s.
     rmse_spread, lag_spread : float
@@ -112,13 +115,13 @@ def _smoothed(result: RunResult) -> dict[str, float]:
     smoothed, estimate = trace["smoothed_stubbornness_omega"], trace["est_stubbornness_omega"]
     return _scores(result, smoothed) | {
         "delay": lag(smoothed, estimate, period),
-        "unsmoothed_rmse": rmse(estimate, trace["true_stubbornness_omega"]),
+        "unsmoothed_rmse": float(rmse(estimate, trace["true_stubbornness_omega"]).value),
     }
 
 
 def _estimated(result: RunResult) -> dict[str, float]:
     trace = result.trace
-    wish = rmse(trace["est_omega"], trace["true_omega"])
+    wish = float(rmse(trace["est_omega"], trace["true_omega"]).value)
     return _scores(result, trace["est_stubbornness_omega"]) | {"wish_rmse": wish}
 
 
@@ -126,7 +129,7 @@ def _scores(result: RunResult, estimate: Array) -> dict[str, float]:
     """Return how well a column of a run follows the true stubbornness."""
     truth = result.trace["true_stubbornness_omega"]
     return {
-        "rmse": rmse(estimate, truth),
-        "bias": bias(estimate, truth),
+        "rmse": float(rmse(estimate, truth).value),
+        "bias": float(bias(estimate, truth).value),
         "lag": lag(estimate, truth, result.scenario.rates.period),
     }

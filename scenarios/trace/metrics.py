@@ -6,7 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from cowalk.estimation.scores.error import bias, lag, rmse
+from cowalk.estimation.scores.error import bias, rmse
+from cowalk.estimation.scores.lag import lag
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.path import Path
 
@@ -52,9 +53,9 @@ def metrics(
         "interaction work": (float(np.sum(power) * period), "J"),
         "lowest target utility": (_least(columns["target_utility"]), "1"),
         "time to agreement": (_time_to_agreement(columns, period), "s"),
-        "stubbornness RMSE": (rmse(estimate, truth), "1"),
-        "stubbornness bias": (bias(estimate, truth), "1"),
-        "smoothed stubbornness RMSE": (rmse(smoothed, truth), "1"),
+        "stubbornness RMSE": (float(rmse(estimate, truth).value), "1"),
+        "stubbornness bias": (float(bias(estimate, truth).value), "1"),
+        "smoothed stubbornness RMSE": (float(rmse(smoothed, truth).value), "1"),
         "smoothed stubbornness lag": (lag(smoothed, truth, period), "s"),
     }
     return {name: {"value": value, "unit": unit} for name, (value, unit) in values.items()}

@@ -1,5 +1,8 @@
 """Estimators in the loop, scored: those that ship, and one's own."""
 
+from dataclasses import asdict
+
+import numpy as np
 import pytest
 
 from cowalk.estimation import FRONT_ENDS, OBSERVERS, SMOOTHERS
@@ -27,7 +30,8 @@ def test_every_smoother_is_scored_the_papers_first():
 
 def test_one_core_and_many_agree():
     one = compare_smoothers(load("puddle", QUICK), seeds=1, jobs=1)
-    assert compare_smoothers(load("puddle", QUICK), seeds=1, jobs=2) == one
+    two = compare_smoothers(load("puddle", QUICK), seeds=1, jobs=2)
+    np.testing.assert_equal([asdict(score) for score in two], [asdict(score) for score in one])
 
 
 def test_at_least_one_seed():
