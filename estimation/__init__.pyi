@@ -16,6 +16,10 @@ from .scores.error import mean_over_rows as mean_over_rows
 from .scores.error import rmse as rmse
 from .scores.error import squared_error as squared_error
 from .scores.lag import lag as lag
+from .scores.rows import demand as demand
+from .scores.rows import identifiable as identifiable
+from .scores.rows import insistence as insistence
+from .scores.rows import row_before as row_before
 from .smoothers.kalman import KalmanSmoother as KalmanSmoother
 from .smoothers.moving_average import MovingAverage as MovingAverage
 from .smoothers.protocol import Smoother as Smoother
