@@ -70,7 +70,15 @@ MADE_BY_COWALK = {
     "Truth",
 }
 """What a run hands from part to part: judged where a part returns it, not at every step anew."""
-SCORES = {"Score"}
+SCORES = {
+    "AffineCalibration",
+    "Coverage",
+    "GapClosed",
+    "Interval",
+    "People",
+    "Prior",
+    "Score",
+}
 """Results, made by the function or the ``fit`` that judges what they are made of."""
 READ_FROM_FILES = {"Scenario"}
 """Judged by pydantic, fault by fault, before there is one (`cowalk.scenarios.load`)."""
