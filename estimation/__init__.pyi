@@ -16,6 +16,13 @@ from .scores.error import mean_over_rows as mean_over_rows
 from .scores.error import rmse as rmse
 from .scores.error import squared_error as squared_error
 from .scores.lag import lag as lag
+from .scores.people import Interval as Interval
+from .scores.people import People as People
+from .scores.people import bootstrap as bootstrap
+from .scores.people import by_person as by_person
+from .scores.people import equal_weights as equal_weights
+from .scores.people import held_out as held_out
+from .scores.people import mean_over_people as mean_over_people
 from .scores.response import overshoot as overshoot
 from .scores.response import rise_time as rise_time
 from .scores.rows import demand as demand
