@@ -15,7 +15,11 @@ from .scores.error import bias as bias
 from .scores.error import mean_over_rows as mean_over_rows
 from .scores.error import rmse as rmse
 from .scores.error import squared_error as squared_error
+from .scores.gap import GapClosed as GapClosed
+from .scores.gap import gap_closed as gap_closed
 from .scores.lag import lag as lag
+from .scores.oracle import grid_moments as grid_moments
+from .scores.oracle import oracle as oracle
 from .scores.people import Interval as Interval
 from .scores.people import People as People
 from .scores.people import bootstrap as bootstrap
@@ -23,6 +27,9 @@ from .scores.people import by_person as by_person
 from .scores.people import equal_weights as equal_weights
 from .scores.people import held_out as held_out
 from .scores.people import mean_over_people as mean_over_people
+from .scores.references import AffineCalibration as AffineCalibration
+from .scores.references import Prior as Prior
+from .scores.references import better_prior_crps as better_prior_crps
 from .scores.response import overshoot as overshoot
 from .scores.response import rise_time as rise_time
 from .scores.rows import demand as demand
