@@ -8,24 +8,24 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from itertools import pairwise
-from typing import Any
 
 from cowalk.sim.basics.registry import did_you_mean
 
-from .rtamt_parts import ErrorListener, InputStream, Interval, LtlLexer, StlAst
-
-Node = Any
-"""A node of rtamt's syntax tree; rtamt is not typed."""
+from .grammar import CALLED_LIKE, FormulaError, Node, tokens, tree
+from .rtamt_parts import Interval, StlParser
 
 OPERATORS = [
     "always",
     "eventually",
     "until",
+    "unless",
     "historically",
     "once",
     "since",
     "next",
     "prev",
+    "s_next",
+    "s_prev",
     "rise",
     "fall",
     "not",
@@ -38,6 +38,7 @@ OPERATORS = [
     "sqrt",
     "exp",
     "pow",
+    *CALLED_LIKE,
 ]
 """Words that may stand before or after a bracket."""
 NUMBERS = {
@@ -46,18 +47,17 @@ NUMBERS = {
     "Constant",
     "Division",
     "Exp",
+    "Maximum",
+    "Minimum",
     "Multiplication",
     "Pow",
+    "Rate",
     "Sqrt",
     "Subtraction",
     "Variable",
 }
 """Kinds of node that stand for a number; all others are true or false."""
 _SECONDS = {"s": 1, "ms": 1_000, "us": 1_000_000, "ns": 1_000_000_000, "": 1}
-
-
-class FormulaError(ValueError):
-    """A formula cannot be understood; the message is one line and says what would be right."""
 
 
 @dataclass(frozen=True)
@@ -74,33 +74,6 @@ class Formula:
 
     root: Node
     columns: tuple[str, ...]
-
-
-class _Listener(ErrorListener):  # type: ignore[misc]
-    """Raises what ANTLR would print."""
-
-    def syntaxError(
-        self, recognizer: Any, symbol: Any, line: int, column: int, message: str, error: Any
-    ) -> None:
-        text = getattr(symbol, "text", None) or message.rpartition("at: ")[2].strip("'")
-        if text == "<EOF>":
-            raise FormulaError("the formula ends too early; is a bracket or a value missing?")
-        before = _text_before(recognizer, symbol)
-        hint = f"; write (0 - {text})" if before == "-" else ""
-        raise FormulaError(f"{text!r} at character {column + 1} cannot stand there{hint}")
-
-
-def _text_before(parser: Any, symbol: Any) -> str:
-    """Return the text of the token before one that cannot be parsed; empty in the lexer."""
-    if symbol is None or symbol.tokenIndex == 0:
-        return ""
-    return str(parser.getTokenStream().get(symbol.tokenIndex - 1).text)
-
-
-class _Lexer(LtlLexer):  # type: ignore[misc]
-    def __init__(self, stream: Any) -> None:
-        super().__init__(stream)
-        self._listeners = [_Listener()]
 
 
 def parse(text: str, columns: Collection[str]) -> Formula:
@@ -130,14 +103,12 @@ def _as_rtamt_wants_it(text: str) -> str:
 @lru_cache
 def _words(text: str) -> tuple[tuple[str, ...], frozenset[str]]:
     """Return the names in a formula, sorted, and which of them a bracket follows."""
-    tokens = _Lexer(InputStream(_as_rtamt_wants_it(text))).getAllTokens()
-    if any(token.type == LtlLexer.EQUAL for token in tokens):
-        raise FormulaError("'=' says nothing here; write == to compare")
-    names = {token.text for token in tokens if token.type == LtlLexer.Identifier}
+    found = tokens(_as_rtamt_wants_it(text))
+    names = {token.text for token in found if token.type == StlParser.Identifier}
     called = {
         token.text
-        for token, after in pairwise(tokens)
-        if token.type == LtlLexer.Identifier and after.type in (LtlLexer.LPAREN, LtlLexer.LBRACK)
+        for token, after in pairwise(found)
+        if token.type == StlParser.Identifier and after.type in (StlParser.LPAREN, StlParser.LBRACK)
     }
     return tuple(sorted(names)), frozenset(called)
 
@@ -145,22 +116,7 @@ def _words(text: str) -> tuple[tuple[str, ...], frozenset[str]]:
 @lru_cache  # a formula is checked, then judged, in as many runs as there are
 def _tree(text: str, names: tuple[str, ...]) -> Node:
     """Return the root of the syntax tree of a formula over columns; nobody changes it."""
-    tree = StlAst()
-    tree.antrlLexerType, tree.parserErrorListenerType = _Lexer, _Listener
-    for name in names:
-        tree.declare_var(name, "float")
-    tree.spec = _as_rtamt_wants_it(text)
-    try:
-        tree.parse()
-    except FormulaError:
-        raise
-    except Exception as error:  # rtamt fails in its own ways, on unless without bounds for one
-        raise FormulaError(
-            f"rtamt cannot read this ({error}); do its operators need bounds, such as [0:5s]?"
-        ) from error
-    if len(tree.specs) != 1:
-        raise FormulaError("this is more than one formula; join them with and")
-    root = tree.specs[0]
+    root = tree(_as_rtamt_wants_it(text), names)
     _require_truth(root)
     _check_operands(root)
     return root
@@ -173,7 +129,7 @@ def kind(node: Node) -> str:
 
 def _require_truth(node: Node) -> None:
     if kind(node) in NUMBERS:
-        raise FormulaError(f"{node.name} is a number; compare it, such as {node.name} >= 0")
+        raise FormulaError(f"{node.text} is a number; compare it, such as {node.text} >= 0")
 
 
 def _check_operands(node: Node) -> None:
@@ -183,7 +139,7 @@ def _check_operands(node: Node) -> None:
             _require_truth(child)
         elif kind(child) not in NUMBERS:
             raise FormulaError(
-                f"{child.name} is true or false, not a number; "
+                f"{child.text} is true or false, not a number; "
                 "join comparisons with and: (0 <= x) and (x <= 1)"
             )
         _check_operands(child)
@@ -225,15 +181,30 @@ def is_bounded_future(node: Node) -> bool:
     return kind(node) in ("TimedAlways", "TimedEventually", "TimedUntil")
 
 
-def check_bounds(node: Node, period: float) -> None:
+def check_bounds(node: Node, period: float, duration: float | None = None) -> None:
     """Require that all time bounds of a formula are whole multiples of the period (s).
+
+    Parameters
+    ----------
+    node
+        Root of the formula.
+    period
+        Control period, s.
+    duration
+        How long the run lasts at most, s: no bound may lie beyond it.
 
     Raises
     ------
     FormulaError
-        If one is not.
+        If one is not, or lies beyond the run's end.
     """
     if isinstance(node, Interval):
+        end = seconds(node)[1]
+        if duration is not None and end > Fraction(duration).limit_denominator(1_000_000):
+            raise FormulaError(
+                f"the bound {float(end):g} s lies beyond the end of the run, "
+                f"duration = {duration:g} s"
+            )
         steps(node, period)
     for child in node.children:
-        check_bounds(child, period)
+        check_bounds(child, period, duration)

@@ -6,6 +6,9 @@ What differs from plain rtamt, so that a margin's sign is always the formula's t
   just below: ``x > 0`` at x = 0 fails, ``x >= 0`` holds, and ``not``, ``==``, ``!=``, ``iff``
   and ``xor`` mean what they say.
 - A comparison with NaN proves nothing: it counts against the formula, negated or not.
+
+Beside that, rtamt's ``until`` and ``since`` within bounds take a time of rows x bound^2, so that
+one of 30 s would take longer than the run: here they take rows x bound.
 """
 
 from __future__ import annotations
@@ -17,7 +20,8 @@ import numpy as np
 
 from cowalk.sim.basics.motion import Array
 
-from .formula import Node, kind, steps
+from .formula import kind, steps
+from .grammar import Node
 from .rtamt_parts import StlDiscreteTimeOfflineAstVisitor
 
 BARELY = 5e-324
@@ -28,6 +32,8 @@ _ARITHMETIC = {
     "Sqrt": np.sqrt,
     "Exp": np.exp,
     "Pow": np.power,
+    "Minimum": np.minimum,
+    "Maximum": np.maximum,
     "Addition": np.add,
     "Subtraction": np.subtract,
     "Multiplication": np.multiply,
@@ -47,8 +53,39 @@ def _compare(operator: str, left: Array, right: Array) -> Array:
     return np.where(left == right, barely, margin)
 
 
+def rate(values: Array, period: float) -> Array:
+    """Return the derivative of a signal: the backward difference by the period (s), per second.
+
+    The first row, which has none before it, takes the second's; a single row has no rate (NaN).
+    """
+    if len(values) < 2:
+        return np.full(len(values), np.nan)
+    found = np.diff(values) / period
+    return np.concatenate([found[:1], found])
+
+
+def _until(hold: Array, reach: Array, begin: int, end: int) -> Array:
+    """Return by how much, for each row, one thing is reached within steps and another holds until.
+
+    Beyond the last row nothing is reached.
+    """
+    rows = len(hold)
+    best, held = np.full(rows, -np.inf), np.full(rows, np.inf)
+    for ahead in range(min(end, rows - 1) + 1):
+        seen = slice(rows - ahead)  # whoever has a row so far ahead
+        if ahead >= begin:
+            best[seen] = np.maximum(best[seen], np.minimum(held[seen], reach[ahead:]))
+        held[seen] = np.minimum(held[seen], hold[ahead:])
+    return best
+
+
 def margins(
-    node: Node, columns: Mapping[str, Array], period: float, *, optimistic: bool = False
+    node: Node,
+    columns: Mapping[str, Array],
+    period: float,
+    *,
+    optimistic: bool = False,
+    fixed: tuple[Node, float] | None = None,
 ) -> Array:
     """Return the margin of a formula seen from every row: above 0 where it holds.
 
@@ -62,6 +99,8 @@ def margins(
         Control period, s.
     optimistic
         Count comparisons with NaN in favour of the formula instead of against it.
+    fixed
+        A part of the formula, and the margin that it is given in every row.
 
     Returns
     -------
@@ -70,29 +109,44 @@ def margins(
     """
     rows = len(next(iter(columns.values())))
     with np.errstate(all="ignore"):
-        found = _Margins(columns, period).visit(node, rows, -1.0 if optimistic else 1.0)
+        found = _Margins(columns, period, fixed).visit(node, rows, -1.0 if optimistic else 1.0)
     return np.asarray(found, dtype=float)
 
 
 class _Margins(StlDiscreteTimeOfflineAstVisitor):  # type: ignore[misc]
     """rtamt's offline semantics; ``sign`` is the polarity of NaN, turned by every negation."""
 
-    def __init__(self, columns: Mapping[str, Array], period: float) -> None:
+    def __init__(
+        self, columns: Mapping[str, Array], period: float, fixed: tuple[Node, float] | None
+    ) -> None:
         self._columns = columns
         self._period = period
+        self._rows = len(next(iter(columns.values())))
+        self._fixed: Node = fixed[0] if fixed else None
+        self._margin = fixed[1] if fixed else 0.0
+        self._known: dict[tuple[int, float], list[float]] = {}
 
     def visit(self, node: Node, rows: int, sign: float) -> Any:
+        if node is self._fixed:
+            return [self._margin] * rows
         if kind(node) == "Variable":
             return np.asarray(self._columns[node.var], dtype=float)
         if kind(node) == "Constant":
             return np.full(rows, node.val)
+        if kind(node) == "Rate":
+            return rate(self.visit(node.children[0], rows, sign), self._period)
         if arithmetic := _ARITHMETIC.get(kind(node)):
             return arithmetic(*(self.visit(child, rows, sign) for child in node.children))
-        # rtamt's own visit would also keep every result, which nobody here asks for.
-        return super(StlDiscreteTimeOfflineAstVisitor, self).visit(node, rows, sign)
+        key = (id(node), sign)
+        if key not in self._known:  # iff and unless ask more than once
+            # rtamt's own visit would also keep results under their nodes, whatever the sign.
+            self._known[key] = super(StlDiscreteTimeOfflineAstVisitor, self).visit(node, rows, sign)
+        return list(self._known[key])  # rtamt's operators add rows to what they get
 
     def time_unit_transformer(self, node: Node) -> tuple[int, int]:
-        return steps(node, self._period)
+        # Beyond the last row there is nothing, however far: rtamt would fill it up.
+        begin, end = steps(node, self._period)
+        return min(begin, self._rows), min(end, self._rows)
 
     def _both(self, node: Node, rows: int, sign: float) -> Any:
         """Yield for each row what left and right are, as such and for use in a negation."""
@@ -137,3 +191,13 @@ class _Margins(StlDiscreteTimeOfflineAstVisitor):  # type: ignore[misc]
         no_now = self.visit(node.children[0], rows, -sign)
         before = [np.inf, *self.visit(node.children[0], rows, sign)]
         return [min(last, -value) for last, value in zip(before, no_now, strict=False)]
+
+    def visitTimedUntil(self, node: Node, rows: int, sign: float) -> list[float]:
+        hold, reach = (np.array(self.visit(child, rows, sign)) for child in node.children)
+        found = _until(hold, reach, *self.time_unit_transformer(node))
+        return [float(value) for value in found]
+
+    def visitTimedSince(self, node: Node, rows: int, sign: float) -> list[float]:
+        hold, reach = (np.array(self.visit(child, rows, sign)) for child in node.children)
+        found = _until(hold[::-1], reach[::-1], *self.time_unit_transformer(node))
+        return [float(value) for value in found[::-1]]

@@ -24,7 +24,8 @@ from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.motion import Array
 
 if TYPE_CHECKING:
-    from .formula import Formula, Node
+    from .formula import Formula
+    from .grammar import Node
 
 
 @dataclass(frozen=True)
@@ -44,6 +45,13 @@ class Verdict:
         ``eventually``.
     reason : str or None
         Why it failed, where that is not a matter of a margin.
+    closest_at : float or None
+        Time in s at which a failed ``eventually`` came closest to holding.
+    closest : dict of str to float, or None
+        What it compares, by its text, and the value that it had then.
+    vacuous : str or None
+        How a formula that holds would also do so if something that it asks for never did (see
+        `cowalk.scenarios.expect.vacuity`).
     """
 
     name: str
@@ -52,19 +60,32 @@ class Verdict:
     passed: bool
     violated_at: float | None = None
     reason: str | None = None
+    closest_at: float | None = None
+    closest: dict[str, float] | None = None
+    vacuous: str | None = None
 
 
 def explain(verdict: Verdict) -> str:
     """Return in one line by how much an expectation holds, or how and when it failed."""
-    if verdict.passed:
-        return f"margin {verdict.robustness:.3g}"
-    when = (
-        "" if verdict.violated_at is None else f", first violated at t = {verdict.violated_at:g} s"
-    )
-    return f"{verdict.reason or f'margin {verdict.robustness:.3g}'}{when}"
+    said = verdict.reason or f"margin {verdict.robustness:.3g}"
+    if verdict.vacuous is not None:
+        said += f", vacuously: {verdict.vacuous}"
+    if verdict.closest_at is not None:
+        said += f", closest at t = {verdict.closest_at:g} s"
+    if verdict.closest:
+        values = (f"{name} = {value:.3g}" for name, value in verdict.closest.items())
+        said += f" with {', '.join(values)}"
+    if verdict.violated_at is not None:
+        said += f", first violated at t = {verdict.violated_at:g} s"
+    return said
 
 
-def syntax_error(formula: str, columns: Collection[str], period: float | None = None) -> str | None:
+def syntax_error(
+    formula: str,
+    columns: Collection[str],
+    period: float | None = None,
+    duration: float | None = None,
+) -> str | None:
     """Return what is wrong with a formula, in one line, or None.
 
     Parameters
@@ -75,13 +96,19 @@ def syntax_error(formula: str, columns: Collection[str], period: float | None = 
         Columns that there are.
     period
         Control period in s, to check that bounds are whole multiples of it.
+    duration
+        How long the run lasts at most, s, to check that all of the formula lies within it; taken
+        into account with a period only.
     """
-    from .formula import FormulaError, check_bounds, parse
+    from .formula import check_bounds, parse
+    from .grammar import FormulaError
 
     try:
         root = parse(formula, columns).root
         if period is not None:
-            check_bounds(root, period)
+            check_bounds(root, period, duration)
+            if duration is not None and (start := _start(root, period) * period) >= duration:
+                return f"it looks from {start:g} s on, but the run is over by then: {duration:g} s"
     except FormulaError as error:
         return str(error)
     return None
@@ -110,6 +137,7 @@ def judge(expect: Mapping[str, str], columns: Mapping[str, Array], period: float
 def _judge(name: str, text: str, columns: Mapping[str, Array], period: float) -> Verdict:
     from .formula import parse
     from .margin import BARELY, margins
+    from .vacuity import vacuous
 
     if reason := syntax_error(text, columns, period):
         raise InputError(f"expect.{name} = {text!r}: {reason}")
@@ -122,17 +150,42 @@ def _judge(name: str, text: str, columns: Mapping[str, Array], period: float) ->
         return Verdict(name, text, np.nan, False, reason=reason)
     margin = float(margins(formula.root, columns, period)[0])
     if margin > 0.0:
-        return Verdict(name, text, 0.0 if margin == BARELY else margin, True)
+        margin = 0.0 if margin == BARELY else margin
+        empty = vacuous(formula.root, columns, period)
+        return Verdict(name, text, margin, True, vacuous=empty)
     at_best = float(margins(formula.root, columns, period, optimistic=True)[0])
+    return _failed(name, text, formula, columns, period, at_best)
+
+
+def _failed(
+    name: str,
+    text: str,
+    formula: Formula,
+    columns: Mapping[str, Array],
+    period: float,
+    at_best: float,
+) -> Verdict:
+    """Return the verdict on a formula that fails, by its margin with NaN counted in its favour."""
+    from .margin import BARELY
+    from .violation import Failure
+
     undecided = at_best > 0.0
-    row = _first_violation(formula.root, columns, period, optimistic=not undecided)
+    failure = Failure(columns, period, optimistic=not undecided)
+    closest = None if undecided else failure.closest(formula.root)
+    reason = None
+    if undecided:
+        reason = _not_a_number(formula, columns, period)
+    elif np.isneginf(at_best) and all(np.isfinite(columns[each]).all() for each in formula.columns):
+        reason = "it looks before the first row or beyond the last, where nothing is recorded"
     return Verdict(
         name,
         text,
         np.nan if undecided else 0.0 if at_best == -BARELY else at_best,
         False,
-        _time(columns, row, period),
-        _not_a_number(formula, columns, period) if undecided else None,
+        _time(columns, failure.first_violation(formula.root), period),
+        reason,
+        None if closest is None else _time(columns, closest.row, period),
+        None if closest is None else closest.values,
     )
 
 
@@ -156,34 +209,3 @@ def _start(node: Node, period: float) -> int:
 
     begin = steps(node, period)[0] if is_bounded_future(node) else 0
     return begin + max((_start(child, period) for child in node.children), default=0)
-
-
-def _first_violation(
-    node: Node, columns: Mapping[str, Array], period: float, *, optimistic: bool
-) -> int:
-    """Return the row that first violated a formula that fails (see `Verdict`)."""
-    from .formula import kind, steps
-    from .margin import margins
-
-    rows = len(next(iter(columns.values())))
-    if kind(node) in ("Always", "TimedAlways"):
-        begin, end = steps(node, period) if kind(node) == "TimedAlways" else (0, rows - 1)
-        inner = margins(node.children[0], columns, period, optimistic=optimistic)
-        return begin + int(np.argmax(inner[begin : end + 1] < 0.0))
-    if kind(node) == "Conjunction":
-        return min(
-            _first_violation(child, columns, period, optimistic=optimistic)
-            for child in node.children
-            if margins(child, columns, period, optimistic=optimistic)[0] < 0.0
-        )
-    return min(_horizon(node, period, rows), rows - 1)
-
-
-def _horizon(node: Node, period: float, rows: int) -> int:
-    """Return the last row that a formula looks at, seen from the first one."""
-    from .formula import is_bounded_future, kind, steps
-
-    if kind(node) in ("Always", "Eventually", "Until"):
-        return rows - 1
-    own = steps(node, period)[1] if is_bounded_future(node) else int("Next" in kind(node))
-    return own + max((_horizon(child, period, rows) for child in node.children), default=0)

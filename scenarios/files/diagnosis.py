@@ -179,9 +179,9 @@ def _formulas(
         return []
     from ..expect.verdict import syntax_error
 
-    period = scenario.rates.period if scenario else None
+    timing = (scenario.rates.period, scenario.duration) if scenario else ()
     found: list[Fault] = []
     for name, formula in expect.items():
-        if isinstance(formula, str) and (reason := syntax_error(formula, columns, period)):
+        if isinstance(formula, str) and (reason := syntax_error(formula, columns, *timing)):
             found.append(Fault(("expect", name), f"expect.{name} = {formula!r}: {reason}"))
     return found

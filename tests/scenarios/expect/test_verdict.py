@@ -1,3 +1,5 @@
+import tracemalloc
+
 import numpy as np
 import pytest
 
@@ -38,6 +40,18 @@ def verdict(formula, columns=COLUMNS):
         ("always (2 * count - count <= 5)", 0.0),
         ("always (nowhere >= 0.3)", np.inf),
         ("(zero == 1) iff (ramp > 100)", 1.0),
+        ("always (ramp + zero + 1 <= 5)", 1.0),
+        ("always (count - (zero + 1) >= -1)", 0.0),
+        ("always (min(ramp, wave) <= 0.8)", 0.8 - np.max(np.minimum(T - 2.0, np.sin(T)))),
+        ("always (max(ramp, 0) >= 0)", 0.0),
+        ("always (abs(rate(ramp) - 1) <= 0.1)", 0.1),
+        ("always (rate(count) <= 20.5)", 0.5),
+        ("eventually (rate(count) >= 19.5)", 0.5),
+        ("always ((t >= 1) implies (rate(t - ramp) <= 0.1))", 0.1),
+        ("(ramp <= 0) unless[0:2s] (t >= 1)", 0.5),
+        ("(ramp <= 3.5) unless[1s:2s] (t >= 99)", 3.45),
+        ("(ramp <= 0) unless (t >= 1)", 0.5),
+        ("(ramp <= 3.5) unless (t >= 99)", 0.5),
     ],
 )
 def test_what_holds_passes_with_its_margin(formula, robustness):
@@ -59,6 +73,8 @@ def test_what_holds_passes_with_its_margin(formula, robustness):
         ("ramp > 0.0", -1.95, 0.05),
         ("always (ramp <= 2.0) and always (ramp <= 1.0)", -2.0, 3.05),
         ("always (ramp <= 1.0) and always (wave <= 2.0)", -2.0, 3.05),
+        ("(ramp <= 0) unless[0:2s] (t >= 3)", -0.05, 2.05),
+        ("always (ramp + t <= 3)", -5.0, 2.55),
     ],
 )
 def test_what_does_not_hold_fails_where_it_first_does_not(formula, robustness, violated_at):
@@ -69,6 +85,56 @@ def test_what_does_not_hold_fails_where_it_first_does_not(formula, robustness, v
     if robustness is not None:
         assert found.robustness == pytest.approx(robustness, abs=1e-3)
     assert f"first violated at t = {violated_at:g} s" in explain(found)
+
+
+@pytest.mark.parametrize(
+    ("formula", "when", "values"),
+    [
+        ("eventually (ramp > 4.0)", 5.0, {"ramp": 3.0}),
+        ("eventually[0:1s] (ramp + 1 > 4.0)", 1.05, {"ramp + 1": 0.05}),
+        ("eventually (abs(wave) >= 1.5)", 4.7, {"abs(wave)": -np.sin(4.7)}),
+        ("eventually ((t < 3) and (ramp > 2.0))", 3.5, {"t": 3.5, "ramp": 1.5}),
+        ("eventually (always[0:1s] (ramp > 4.0))", 5.0, {}),
+        ("always ((t > 2) implies eventually[0:1s] (wave > 0.5))", 2.65, {"wave": np.sin(2.65)}),
+        ("always (zero == 0) and eventually (rate(count) > 21)", 1.0, {"rate(count)": 20.0}),
+        ("always (t > 0) and ((t > 99) or eventually (count > 9))", 5.0, {"count": 5.0}),
+    ],
+)
+def test_an_eventually_that_fails_says_where_it_came_closest(formula, when, values):
+    found = verdict(formula)
+    assert not found.passed
+    assert found.closest_at == pytest.approx(when, abs=0.001)
+    assert found.closest == pytest.approx(values)
+    assert f"closest at t = {found.closest_at:g} s" in explain(found)
+    assert all(f"{name} = {value:.3g}" in explain(found) for name, value in found.closest.items())
+
+
+def test_what_fails_by_no_eventually_came_closest_nowhere():
+    assert verdict("always (ramp <= 1.0)").closest_at is None
+    assert verdict("eventually (unknown > 0)").closest_at is None
+
+
+def test_the_rate_of_the_first_row_is_that_of_the_second_and_a_single_row_has_none():
+    columns = {"x": np.array([0.0, 1.0, 1.0])}
+    assert verdict("always (rate(x) >= 0)", columns).passed
+    assert verdict("rate(x) >= 20", columns).robustness == pytest.approx(0.0)
+    assert np.isnan(verdict("rate(x) >= 20", {"x": np.zeros(1)}).robustness)
+
+
+def test_what_looks_before_the_first_row_fails_and_says_so():
+    found = verdict("once[1s:2s] (zero == 0)")
+    assert not found.passed
+    assert found.reason.startswith("it looks before the first row")
+    assert verdict("always (nowhere < 1)").reason is None
+
+
+def test_bounds_far_beyond_the_end_take_no_memory():
+    tracemalloc.start()
+    assert verdict("always[0:1e9s] (zero == 0)").passed
+    assert not verdict("eventually[0:1e9s] (zero == 1)").passed
+    assert not verdict("(zero == 0) until[0:1e9s] (zero == 1)").passed
+    assert tracemalloc.get_traced_memory()[1] < 1e7
+    tracemalloc.stop()
 
 
 @pytest.mark.parametrize(
@@ -195,7 +261,6 @@ def test_every_column_of_a_trace_can_be_used():
         ("always[5:2] (x > 0)", "must rise from 0 s on"),
         ("always[-1:2] (x > 0)", "must rise from 0 s on"),
         ("always[0:0.33] (x > 0)", "0.33 s is not a whole number of control periods of 0.05 s"),
-        ("(x > 0) unless (y > 0)", "bounds"),
         ("allways[0:1s] (x > 0)", "unknown operator 'allways'; did you mean 'always'?"),
         ("not (sometimes (x > 0))", "unknown operator 'sometimes'; known: always, eventually,"),
     ],
