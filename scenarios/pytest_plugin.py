@@ -6,6 +6,7 @@ imported before a scenario is met, so that other projects' tests start as fast a
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
@@ -20,6 +21,10 @@ SUFFIX = ".scenario.yaml"
 
 class Failure(Exception):
     """A scenario is broken, was aborted, or does not meet an expectation."""
+
+
+class VacuousExpectation(pytest.PytestWarning):
+    """An expectation holds, and would also do so if what it asks for never did."""
 
 
 class RunScenario(Protocol):
@@ -70,21 +75,28 @@ class ScenarioFile(pytest.File):
 
     def collect(self) -> Iterator[pytest.Item]:
         """Yield a test for each expectation; one for the whole file if it is broken or has none."""
-        from .files.documents import parse
-        from .files.loading import faults, load
-
-        # A broken file is a failed test, not an error that would keep all others from running.
-        if faults(self.path):
+        # A broken file is a failed test, not an error that would keep all others from running;
+        # so is one that cowalk stumbles over: the test does it again, and shows where.
+        try:
+            lines = self._lines()
+        except Exception:
+            lines = None
+        if lines is None:
             yield ScenarioTest.from_parent(self, name="valid", line=1)
             return
-        names = list(load(self.path).expect)
-        document = parse(self.path.read_text(encoding="utf-8"))
-        for name in names:
-            yield ScenarioTest.from_parent(
-                self, name=name, line=document.line(("expect", name)), expectation=name
-            )
-        if not names:
+        for name, line in lines.items():
+            yield ScenarioTest.from_parent(self, name=name, line=line, expectation=name)
+        if not lines:
             yield ScenarioTest.from_parent(self, name="runs to its end", line=1)
+
+    def _lines(self) -> dict[str, int] | None:
+        """Return the line of each expectation by its name; None if the file is broken."""
+        from .files.loading import faults, load, read_document
+
+        if faults(self.path):
+            return None
+        document = read_document(self.path)
+        return {name: document.line(("expect", name)) for name in load(self.path).expect}
 
     def result(self) -> RunResult:
         """Return the result of the run, which is made once.
@@ -94,10 +106,16 @@ class ScenarioFile(pytest.File):
         Failure
             If the file is broken or the run was aborted.
         """
+        from cowalk.sim.basics.errors import InputError
+
         from .files.loading import faults, load
 
         if self._result is None:
-            if found := faults(self.path):
+            try:
+                found = faults(self.path)
+            except InputError as error:  # it cannot be read at all
+                raise Failure(str(error)) from error
+            if found:
                 count = f"{len(found)} fault{'s' * (len(found) > 1)}"
                 lines = [f"  line {fault.line}: {fault.message}" for fault in found]
                 raise Failure("\n".join([f"{self.path} is broken, {count}:", *lines]))
@@ -122,22 +140,37 @@ class ScenarioTest(pytest.Item):
         self._expectation = expectation
 
     def runtest(self) -> None:
-        """Run the scenario, if that was not done yet, and look at the verdict."""
+        """Run the scenario, if that was not done yet, and look at the verdict.
+
+        Warns
+        -----
+        VacuousExpectation
+            If the expectation holds vacuously.
+        """
         from .expect.verdict import explain
+        from .files.assembling import said_parts
 
         result = self.parent.result()
         for verdict in result.verdicts:
-            if verdict.name == self._expectation and not verdict.passed:
+            if verdict.name != self._expectation:
+                continue
+            if not verdict.passed:
                 raise Failure(
                     f"expectation: {verdict.name}\n"
                     f"formula:     {verdict.formula}\n"
                     f"fails:       {explain(verdict)}\n"
+                    f"run:         {said_parts(result.scenario)}\n"
                     f"{self.parent.hint()}"
+                )
+            if verdict.vacuous is not None:
+                said = f"{verdict.name}: {verdict.formula!r} holds vacuously: {verdict.vacuous}"
+                warnings.warn_explicit(
+                    VacuousExpectation(said), None, str(self.path), lineno=self._line
                 )
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], *args: Any) -> Any:
         """Return a few lines about the scenario; a traceback only where the fault is cowalk's."""
-        if isinstance(excinfo.value, Failure):
+        if isinstance(excinfo.value, Failure | VacuousExpectation):
             return str(excinfo.value)
         return super().repr_failure(excinfo, *args)
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from . import humans, listing, new, studies
+from . import checking, humans, listing, new, studies
 from .changes import Changes, changing, option, read_changed
 from .output import (
     BAD_INPUT,
@@ -59,14 +59,7 @@ def command_line() -> typer.Typer:
             "  cowalk run my.scenario.yaml --human mymodels:MyHuman --json"
         )
     )(changing(run))
-    app.command(
-        epilog=(
-            "\b\nExamples:\n"
-            "  cowalk check my.scenario.yaml\n"
-            "  cowalk check *.scenario.yaml\n"
-            "  cowalk check mymodels:MyHuman"
-        )
-    )(check)
+    checking.register(app)
     listing.register(app)
     humans.register(app)
     studies.register(app)
@@ -190,40 +183,6 @@ def _report(result: RunResult, files: dict[str, str]) -> None:
         print(f"speed:    {two_digits(factor)} times real time ({wall:.2f} s)")
     for what, file in files.items():
         _say_file(what, file)
-
-
-def check(
-    files: Annotated[
-        list[str],
-        typer.Argument(
-            metavar="FILE...", help="Scenario files, or parts of your own as module:Class."
-        ),
-    ],
-) -> int:
-    """Report every fault of scenario files with its line, or of parts of your own."""
-    from cowalk.sim.basics.errors import InputError
-
-    from ..files.loading import faults, find
-    from ..files.own_parts import judge_own_part
-
-    code = PASSED
-    for file in files:
-        part = ":" in file and not Path(file).exists()
-        kind = ""
-        try:
-            if part:
-                kind, found = judge_own_part(file)
-            else:
-                found = list(map(str, faults(find(file))))
-        except InputError as error:
-            if part:  # there is nothing to check
-                complain(str(error))
-                code = BAD_INPUT
-                continue
-            found = [str(error)]
-        print("\n".join(found) if found else f"{file}: no fault{f' ({kind})' * bool(kind)}")
-        code = BAD_INPUT if found else code
-    return code
 
 
 def main() -> None:

@@ -216,3 +216,13 @@ def named_parts(scenario: Scenario) -> dict[str, Any]:
         else:
             found[part.title] = value.name
     return found
+
+
+def said_parts(scenario: Scenario) -> str:
+    """Return seed and parts of a scenario in one line, without those that are off."""
+    said = [f"seed {scenario.seed}"]
+    for title, names in named_parts(scenario).items():
+        names = ", ".join(names) if isinstance(names, list) else names
+        if names not in ("", "none"):
+            said.append(f"{title} {names}")
+    return "; ".join(said)

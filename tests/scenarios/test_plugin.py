@@ -55,11 +55,70 @@ def test_each_expectation_is_a_test_with_a_short_failure(scenarios):
         [
             "expectation: goes far",
             "formula:     eventually (x >= 10.0)",
-            "fails:       margin -8.*, first violated at t = 2 s",
+            "fails:       margin -8.*, closest at t = 2 s with x = 1.6, first violated at t = 2 s",
+            "run:         seed 0; human steady; automation never-yields; *plant unicycle",
             "to see the run: cowalk run *good.scenario.yaml",
         ]
     )
     result.stdout.no_fnmatch_line("*Failure*")
+
+
+def test_what_holds_vacuously_is_warned_of(scenarios):
+    text = GOOD + "  is slow far out: always ((x >= 10.0) implies (v <= 0.1))\n"
+    pytester = scenarios(good=text)
+    warned = pytester.runpytest_inprocess("-W", "default")
+    warned.assert_outcomes(passed=3, warnings=1)
+    said = "it would hold even if v <= 0.1 never did: x >= 10.0 never holds"
+    warned.stdout.fnmatch_lines([f"*good.scenario.yaml:10: VacuousExpectation: *{said}"])
+    strict = pytester.runpytest_inprocess("-W", "error")
+    strict.assert_outcomes(passed=2, failed=1)
+    strict.stdout.fnmatch_lines([f"*{said}"])
+    strict.stdout.no_fnmatch_line("*.py:*")
+
+
+@pytest.mark.parametrize(
+    ("formula", "words"),
+    [
+        ("always (x + y <= 30", "the formula ends too early"),
+        ("always[0:1e9s] (x > 0)", "the bound 1e+09 s lies beyond the end of the run"),
+    ],
+)
+def test_a_bad_formula_keeps_no_other_file_from_running(scenarios, formula, words):
+    bad = GOOD + f"  bad: {formula}\n"
+    result = scenarios(good=GOOD, bad=bad).runpytest_inprocess("-W", "error")
+    result.assert_outcomes(passed=2, failed=1)
+    result.stdout.fnmatch_lines([f"*line 10: expect.bad*{words}*"])
+    result.stdout.no_fnmatch_line("*Traceback*")
+
+
+def test_a_file_that_is_no_text_keeps_no_other_from_running(scenarios):
+    pytester = scenarios(good=GOOD)
+    (pytester.path / "bytes.scenario.yaml").write_bytes(b"name: \xff\xfe")
+    result = pytester.runpytest_inprocess("-W", "error")
+    result.assert_outcomes(passed=2, failed=1)
+    result.stdout.fnmatch_lines(["*this is not text in UTF-8*"])
+    result.stdout.no_fnmatch_line("*Traceback*")
+
+
+def test_a_file_that_cowalk_stumbles_over_keeps_no_other_from_running(scenarios):
+    pytester = scenarios(good=GOOD, odd=GOOD.replace("name: good", "name: odd"))
+    pytester.makeconftest(
+        """
+        from cowalk.scenarios.files import loading
+
+        known = loading.faults
+
+        def faults(file):
+            if file.name.startswith("odd"):
+                raise AttributeError("a fault of cowalk's own")
+            return known(file)
+
+        loading.faults = faults
+        """
+    )
+    result = pytester.runpytest_subprocess("-W", "error")
+    result.assert_outcomes(passed=2, failed=1)
+    result.stdout.fnmatch_lines(["*AttributeError: a fault of cowalk's own"])
 
 
 def test_one_expectation_can_be_chosen(scenarios):

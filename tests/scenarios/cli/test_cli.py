@@ -5,6 +5,7 @@ import subprocess
 import sys
 import time
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -299,6 +300,37 @@ def test_check_reports_every_fault_of_every_file(cowalk, scenario_file):
     assert lines[2].startswith(f"{bad}:3: paec: unknown key; did you mean 'pace'?")
     assert lines[3].startswith("missing.yaml: ")
     assert cowalk("check", good, "puddle")[0] == 0
+
+
+def test_check_strict_runs_and_reports_what_fails_or_holds_vacuously(cowalk, scenario_file):
+    more = (
+        "expect:\n  walks: eventually (x >= 1.0)\n  arrives: eventually (x >= 10.0)\n"
+        "  rests there: always ((x >= 10.0) implies (v <= 0.1))\n"
+    )
+    file = scenario_file(more=more)
+    assert cowalk("check", file)[0] == 0
+    code, out, _ = cowalk("check", "--strict", file)
+    assert code == 1
+    arrives, rests = out.splitlines()
+    line = Path(file).read_text().splitlines().index("  arrives: eventually (x >= 10.0)") + 1
+    assert arrives.startswith(f"{file}:{line}: expect.arrives = 'eventually (x >= 10.0)' fails: ")
+    assert "closest at t = 3 s with x = 2.4" in arrives
+    assert "(seed 0; human steady; automation never-yields; " in arrives
+    assert rests.startswith(f"{file}:{line + 1}: expect.rests there = ")
+    assert "holds: margin 7.6, vacuously: it would hold even if v <= 0.1 never did" in rests
+    assert cowalk("check", "--strict", file, "missing.yaml")[0] == 2
+
+
+def test_check_strict_finds_nothing_where_all_holds(cowalk, scenario_file):
+    file = scenario_file(more="expect: {walks: eventually (x >= 1.0)}\n")
+    assert cowalk("check", "--strict", file) == (0, f"{file}: no fault\n", "")
+
+
+def test_check_strict_reports_a_run_that_was_aborted(cowalk, scenario_file):
+    file = scenario_file(("name: steady", "name: my_models:TurnsToNan"))
+    code, out, _ = cowalk("check", "--strict", file)
+    assert code == 2
+    assert out.startswith(f"{file}: the run was aborted: ")
 
 
 def _rows(passed):
