@@ -302,6 +302,14 @@ def test_check_reports_every_fault_of_every_file(cowalk, scenario_file):
     assert cowalk("check", good, "puddle")[0] == 0
 
 
+def test_unless_within_bounds_is_judged(cowalk):
+    expect = 'expect={waits: "(v >= 0.2) unless[0:2s] (x >= 1.0)", sums: "always (x + y <= 30)"}'
+    arguments = ("puddle", "--plant", "unicycle", "--set", "duration=4", "--set", expect)
+    code, out, _ = cowalk("run", *arguments, "--no-figure", "--json")
+    assert code == 0
+    assert [verdict["passed"] for verdict in json.loads(out)["expectations"]] == [True, True]
+
+
 def test_check_strict_runs_and_reports_what_fails_or_holds_vacuously(cowalk, scenario_file):
     more = (
         "expect:\n  walks: eventually (x >= 1.0)\n  arrives: eventually (x >= 10.0)\n"
