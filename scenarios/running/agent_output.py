@@ -70,10 +70,13 @@ def require_belief(automation: object, belief: Any, columns: Mapping[str, str]) 
         value = getattr(belief, name)
         if not isinstance(value, float | int | np.number | np.ndarray) or np.ndim(value):
             raise PartError(automation, f"belief().{name} is {_said(value)}; it must be one number")
-    for name in belief.extras:
+    for name, value in belief.extras.items():
         if name not in columns:
             known = ", ".join(columns) or "nothing"
             raise PartError(automation, f"belief().extras has {name!r}; columns declares {known}")
+        if not isinstance(value, float | int | np.number | np.ndarray) or np.ndim(value):
+            said = f"belief().extras has {name} = {_said(value)}"
+            raise PartError(automation, f"{said}; it must be one number")
 
 
 _PAIR = "a NumPy array of shape (2,)"

@@ -12,6 +12,7 @@ from cowalk.sim.basics.situation import Situation
 
 from ..planner.utility import negotiated
 from .negotiation import Agreement, Negotiation
+from .part_output import smoothed
 from .strategy import Strategy
 
 
@@ -43,13 +44,13 @@ class InteractionStrategy(Strategy):
             self.smoother.reset(interaction_value(self._loss, self._loss))
         norm = stubbornness_norm(negotiation.stubbornness)
         interaction = interaction_value(norm, self._loss)
-        smoothed = self.smoother.update(interaction)
-        self._loss = self.utility_loss(smoothed)
+        heard = smoothed(self.smoother, interaction)
+        self._loss = self.utility_loss(heard)
         target = 1.0 - self._loss
         return Agreement(
             twist=negotiated(negotiation.problem, negotiation.own, negotiation.human, target),
             target_utility=target,
             utility_loss=self._loss,
             interaction=interaction,
-            interaction_smoothed=smoothed,
+            interaction_smoothed=heard,
         )

@@ -21,12 +21,13 @@ from cowalk.sim.basics.errors import PartError
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
 from cowalk.sim.basics.situation import Situation
-from cowalk.sim.basics.validators import require_instance, require_part
+from cowalk.sim.basics.validators import require, require_instance, require_part
 
 from ...basics.protocols import Belief
 from ..planner.problem import PROBLEMS
 from ..planner.settings import NegotiationSettings
 from .negotiation import Agreement, Negotiation
+from .part_output import require_block, require_estimate, said, smoothed
 
 
 class Strategy(ABC):
@@ -77,7 +78,11 @@ class Strategy(ABC):
         self.observer: Observer = observer or PaperObserver()
         self.smoother: Smoother = smoother or MovingAverage()
         self._stubbornness_smoother = deepcopy(self.smoother)
-        self.columns = {**self.columns, **getattr(self.observer, "columns", {})}
+        added = getattr(self.observer, "columns", {})
+        require(
+            isinstance(added, Mapping), ("observer", "columns"), added, "units by name are expected"
+        )
+        self.columns = {**self.columns, **added}
 
     @abstractmethod
     def agree(self, negotiation: Negotiation) -> Agreement:
@@ -110,6 +115,7 @@ class Strategy(ABC):
             settings, pose = self.negotiation, observation["pose_world"]
             self._problem = PROBLEMS[settings.dimensions](settings, self._situation, pose)
             self._own = self._problem.wish()
+            self._own.flags.writeable = False  # observers are handed it
         estimate = self._estimate(observation)
         if negotiating:
             self._negotiate(observation, estimate)
@@ -127,12 +133,7 @@ class Strategy(ABC):
         """Return what the observer makes of what the front end made of the last control step."""
         measured, valid = observation["wrench"], observation["force_valid"]
         wrench = self.front_end.update(measured, valid)
-        if not isinstance(wrench, np.ndarray) or wrench.shape != measured.shape:
-            raise PartError(
-                self.front_end,
-                f"update() gave {_shape(wrench)}; it must be the block of samples, cleaned, an "
-                f"array of shape {measured.shape}",
-            )
+        require_block(self.front_end, wrench, measured.shape)
         sample = Sample(
             wrench=wrench,
             valid=valid,
@@ -142,25 +143,12 @@ class Strategy(ABC):
             time=observation["time"][..., 0],
         )
         estimate = self.observer.update(sample, self._own)
-        if not isinstance(estimate, Estimate):
-            said = f"update() gave {_shape(estimate)}; it must be an Estimate"
-            raise PartError(self.observer, said)
-        if not isinstance(estimate.extras, Mapping):
-            said = f"update() gave extras {estimate.extras!r}; they must be numbers by name"
-            raise PartError(self.observer, said)
-        if undeclared := estimate.extras.keys() - self.columns.keys():
-            said = f"update() gave extras {sorted(undeclared)} that its columns do not declare"
-            raise PartError(self.observer, said)
+        if estimate is not self._estimated:
+            require_estimate(self.observer, estimate, observation["twist"].shape)
         return estimate
 
     def _negotiate(self, observation: Observation, estimate: Estimate) -> None:
         twist = observation["twist"]
-        if estimate.wish.shape != twist.shape or not np.isfinite(estimate.wish).all():
-            raise PartError(
-                self.observer,
-                f"update() gave wish = {estimate.wish}; it must be finite, in m/s and rad/s, an "
-                f"array of shape {twist.shape}",
-            )
         if self._count == 0:
             self._stubbornness_smoother.reset(np.zeros(twist.shape))
         agreed = self.agree(
@@ -177,12 +165,12 @@ class Strategy(ABC):
             )
         )
         if not isinstance(agreed, Agreement):
-            raise PartError(self, f"agree() gave {_shape(agreed)}; it must be an Agreement")
+            raise PartError(self, f"agree() gave {said(agreed)}; it must be an Agreement")
         self._twist = agreed.twist
         self._belief = Belief(
             stubbornness=estimate.stubbornness,
             stubbornness_deviation=estimate.stubbornness_deviation,
-            stubbornness_smoothed=self._stubbornness_smoother.update(estimate.stubbornness),
+            stubbornness_smoothed=smoothed(self._stubbornness_smoother, estimate.stubbornness),
             human_wish=estimate.wish,
             human_wish_deviation=estimate.wish_deviation,
             wish=self._own,
@@ -211,7 +199,3 @@ class Strategy(ABC):
         if self.negotiation.dimensions == "both":
             return wish
         return np.stack((np.full_like(wish[..., 0], self._situation.pace), wish[..., 1]), axis=-1)
-
-
-def _shape(value: object) -> str:
-    return f"an array of shape {value.shape}" if isinstance(value, np.ndarray) else repr(value)

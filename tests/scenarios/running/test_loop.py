@@ -71,15 +71,26 @@ class FrontEnd:
             return wrench
         if self.kind == "shape":
             return wrench[:, :2]
+        if self.kind == "nan":
+            return wrench * np.nan
         raise ZeroDivisionError("no samples")
 
 
 class Smoother(MovingAverage):
+    def __init__(self, kind: str = "raises"):
+        super().__init__()
+        self.kind = kind
+
     def update(self, value):
-        raise KeyError("window")
+        found = super().update(value)
+        if self.kind == "raises":
+            raise KeyError("window")
+        return {"none": None, "nan": found * np.nan, "shape": np.zeros(3)}[self.kind]
 
 
 class Observer(PaperObserver):
+    columns = {"temper": "1"}
+
     def __init__(self, kind: str = "raises"):
         self.kind = kind
 
@@ -95,6 +106,14 @@ class Observer(PaperObserver):
             return Estimate(found.stubbornness, found.wish, extras={"mood": 0.5})
         if self.kind == "number":
             return Estimate(found.stubbornness, found.wish, extras=0.5)
+        if self.kind == "text":
+            return Estimate(found.stubbornness, found.wish, extras={"temper": "bad"})
+        if self.kind == "three":
+            return Estimate(np.zeros(3), found.wish)
+        if self.kind == "float":
+            return Estimate(0.5, found.wish)
+        if self.kind == "writes":
+            own_wish[:] = 9.0
         return np.ones(3) @ np.ones(2)
 
 
@@ -118,6 +137,15 @@ class Talker(InteractionStrategy):
 
 class Mute(Talker):
     pass
+
+
+class Mumbler(Talker):
+    columns = {"hurry": "1"}
+
+    def belief(self):
+        found = super().belief()
+        found.extras = {"hurry": "very"}
+        return found
 """
 FRONT_END = "automation.front_end=faulty:FrontEnd"
 OBSERVER = "automation.observer=faulty:Observer"
@@ -153,6 +181,51 @@ OBSERVER = "automation.observer=faulty:Observer"
             [OBSERVER, "automation.observer.parameters.kind=number"],
             "observer 'faulty:Observer'",
             "gave extras 0.5; they must be numbers by name",
+        ),
+        (
+            [FRONT_END, "automation.front_end.parameters.kind=nan"],
+            "front end 'faulty:FrontEnd'",
+            "samples that are not finite",
+        ),
+        (
+            ["automation.smoother=faulty:Smoother", "automation.smoother.parameters.kind=none"],
+            "smoother 'faulty:Smoother'",
+            "gave None; it must be a number",
+        ),
+        (
+            ["automation.smoother=faulty:Smoother", "automation.smoother.parameters.kind=nan"],
+            "smoother 'faulty:Smoother'",
+            "gave nan; it must be finite",
+        ),
+        (
+            ["automation.smoother=faulty:Smoother", "automation.smoother.parameters.kind=shape"],
+            "smoother 'faulty:Smoother'",
+            "an array of shape (3,); it must be a number",
+        ),
+        (
+            [OBSERVER, "automation.observer.parameters.kind=text"],
+            "observer 'faulty:Observer'",
+            "gave extras with temper = 'bad'; it must be a number",
+        ),
+        (
+            [OBSERVER, "automation.observer.parameters.kind=three"],
+            "observer 'faulty:Observer'",
+            "gave stubbornness = an array of shape (3,)",
+        ),
+        (
+            [OBSERVER, "automation.observer.parameters.kind=float"],
+            "observer 'faulty:Observer'",
+            "gave stubbornness = 0.5; it must be an array of shape (2,)",
+        ),
+        (
+            [OBSERVER, "automation.observer.parameters.kind=writes"],
+            "observer 'faulty:Observer'",
+            "ValueError: assignment destination is read-only",
+        ),
+        (
+            ["automation=faulty:Mumbler"],
+            "automation 'faulty:Mumbler'",
+            "belief().extras has hurry = 'very'; it must be one number",
         ),
         (
             ["human.imperfections=[{name: 'faulty:Imperfect'}]"],

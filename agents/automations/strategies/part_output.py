@@ -1,0 +1,100 @@
+"""What a strategy's parts answered, looked at before it is used: the part itself is blamed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from cowalk.estimation.front_ends.protocol import FrontEnd
+from cowalk.estimation.observers.protocol import Estimate, Observer
+from cowalk.estimation.smoothers.protocol import Smoother
+from cowalk.sim.basics.errors import PartError
+from cowalk.sim.basics.motion import Array
+
+Shape = tuple[int, ...]
+
+
+def require_block(front_end: FrontEnd, block: Any, shape: Shape) -> None:
+    """Refuse what is no block of samples of that shape, all finite.
+
+    Raises
+    ------
+    PartError
+        With the front end to blame.
+    """
+    if not isinstance(block, np.ndarray) or block.shape != shape:
+        what = f"the block of samples, cleaned, an array of shape {shape}"
+        raise PartError(front_end, f"update() gave {said(block)}; it must be {what}")
+    if not np.isfinite(block).all():
+        raise PartError(front_end, "update() gave samples that are not finite")
+
+
+def require_estimate(observer: Observer, estimate: Any, shape: Shape) -> None:
+    """Refuse what is no estimate with finite means and the numbers that the observer declares.
+
+    Raises
+    ------
+    PartError
+        With the observer to blame.
+    """
+    if not isinstance(estimate, Estimate):
+        raise PartError(observer, f"update() gave {said(estimate)}; it must be an Estimate")
+    for name, finite in _PAIRS.items():
+        value = getattr(estimate, name)
+        allowed = (shape,) if finite else (shape, shape[-1:])
+        if not isinstance(value, np.ndarray) or value.shape not in allowed:
+            given = f"update() gave {name} = {said(value)}"
+            raise PartError(observer, f"{given}; it must be an array of shape {shape}")
+        if finite and not np.isfinite(value).all():
+            raise PartError(observer, f"update() gave {name} = {value}; it must be finite")
+    if not isinstance(estimate.extras, Mapping):
+        given = f"update() gave extras {estimate.extras!r}"
+        raise PartError(observer, f"{given}; they must be numbers by name")
+    if not estimate.extras:
+        return
+    if undeclared := estimate.extras.keys() - getattr(observer, "columns", {}).keys():
+        given = f"update() gave extras {sorted(undeclared)}"
+        raise PartError(observer, f"{given} that its columns do not declare")
+    for name, value in estimate.extras.items():
+        if not _numbers(value, shape[:-1]):
+            given = f"update() gave extras with {name} = {said(value)}"
+            raise PartError(observer, f"{given}; it must be a number")
+
+
+def smoothed(smoother: Smoother, value: Array) -> Array:
+    """Return what a smoother makes of a value, which it cannot change.
+
+    Raises
+    ------
+    PartError
+        If that is not finite, or of another shape; with the smoother to blame.
+    """
+    given = value.copy()
+    result = smoother.update(given)
+    if not _numbers(result, value.shape):
+        what = f"an array of shape {value.shape}" if value.shape else "a number"
+        raise PartError(smoother, f"update() gave {said(result)}; it must be {what}")
+    if not np.isfinite(result).all():
+        raise PartError(smoother, f"update() gave {result}; it must be finite")
+    return result
+
+
+def said(value: object) -> str:
+    """Return in a few words what was given."""
+    return f"an array of shape {value.shape}" if isinstance(value, np.ndarray) else repr(value)
+
+
+_PAIRS = {
+    "stubbornness": True,
+    "wish": True,
+    "stubbornness_deviation": False,
+    "wish_deviation": False,
+}
+"""Arrays of an estimate, and whether they must be finite: a deviation may be left open."""
+
+
+def _numbers(value: Any, shape: Shape) -> bool:
+    right = isinstance(value, float | int | np.number | np.ndarray)
+    return right and np.shape(value) == shape
