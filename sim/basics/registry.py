@@ -86,6 +86,8 @@ def import_address(address: str) -> Any:
             found = getattr(found, step)
     except (ImportError, AttributeError, SyntaxError, ValueError) as error:
         raise InputError(f"cannot be imported: {error}") from error
+    except SystemExit as error:  # a script, not a module: it must not end the command
+        raise InputError("cannot be imported: importing it ends the program") from error
     return found
 
 

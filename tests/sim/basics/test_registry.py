@@ -38,6 +38,12 @@ def test_names_that_lead_nowhere_are_refused(name, said):
         HUMANS.get(name)
 
 
+def test_a_module_that_ends_the_program_is_refused(tmp_path):
+    (tmp_path / "script_of_mine.py").write_text("import sys\nsys.exit(0)\n")
+    with pytest.raises(InputError, match="importing it ends the program"):
+        HUMANS.get("script_of_mine:Human")
+
+
 def test_every_registered_name_can_be_imported():
     for registry in (HUMANS, AUTOMATIONS, PLANTS):
         assert all(callable(registry.get(name)) for name in registry)
