@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import json
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -24,19 +25,19 @@ class Changes:
 
     Attributes
     ----------
-    names : sequence of (str, str, str)
+    names : sequence of (str, str, str or int)
         Option, key of the scenario and value, for every option that was given.
     assignments : sequence of str
         Values of ``--set``.
     """
 
-    names: Sequence[tuple[str, str, str]]
+    names: Sequence[tuple[str, str, str | int]]
     assignments: Sequence[str]
 
     def __iter__(self) -> Iterator[tuple[str, str]]:
         """Yield how each change was written, and as an assignment."""
         for option, key, value in self.names:
-            yield f"{option} {value}", f"{key}={value}"
+            yield f"{option} {value}", f"{key}={json.dumps(value)}"  # text, whatever it says
         for assignment in self.assignments:
             yield f"--set {assignment}", assignment
 
@@ -60,8 +61,9 @@ def changing(command: Callable[..., int], **usual: str) -> Callable[..., int]:
 
     def called(assign: list[str] | None, seed: int | None, **given: Any) -> int:
         names = [(f"--{part.flag}", ".".join(part.section), given.pop(part.key)) for part in swaps]
-        names.append(("--seed", "seed", "" if seed is None else str(seed)))
-        changes = Changes([each for each in names if each[2]], assign or [])
+        names = [each for each in names if each[2]]
+        names += [] if seed is None else [("--seed", "seed", seed)]
+        changes = Changes(names, assign or [])
         return command(changes=changes, **given)
 
     signature = inspect.signature(command, eval_str=True)
@@ -151,10 +153,10 @@ def _refuse_contradictions(changes: Changes) -> None:
 
     from ..files.overrides import parsed
 
-    said: dict[tuple[str | int, ...], tuple[str, str]] = {
+    said: dict[tuple[str | int, ...], tuple[str, str | int]] = {
         tuple(key.split(".")): (f"{name} {value}", value) for name, key, value in changes.names
     }
     for number, (written, assignment) in enumerate(changes):
         steps, _, value = parsed(assignment, number)
-        if steps in said and not isinstance(value, dict) and str(value) != said[steps][1]:
+        if steps in said and not isinstance(value, dict) and value != said[steps][1]:
             raise InputError(f"{said[steps][0]} and {written} contradict each other: give one")

@@ -282,3 +282,11 @@ def test_a_front_end_reaches_only_who_takes_one(folder):
     )
     scenario = load("puddle", ["automation=plain_automation:Plain", "automation.front_end=mean"])
     assert np.array_equal(build_part(scenario, "automation").act({}), np.zeros(2))
+
+
+def test_the_value_of_an_option_is_a_name_whatever_it_would_be_in_yaml(cowalk):
+    for given in ("yes", "7", "{name: steady}"):
+        code, _, err = cowalk("run", "puddle", "--human", given, "--show")
+        assert code == 2
+        assert err.startswith(f"cowalk: --human {given}: human.name: ")
+        assert f"human {given!r}" in err
