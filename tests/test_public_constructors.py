@@ -97,7 +97,7 @@ KINDS = {
     "whole": (*POSITIVE, 2.5),
     "flag": (None, "yes", 1, 0.0, math.nan, []),
     "text": TEXT,
-    "word": (*TEXT, "no such word", ["left"]),
+    "word": (*TEXT, "no such word", ["left"], np.zeros(2)),
     "thing": THING,
     "source": (None, 3, True, {}, object(), object),
     "class_": (3, "nonsense", True, [], object()),

@@ -71,19 +71,34 @@ def build_agents(scenario: Scenario) -> tuple[Human, Automation]:
     InputError
         If a name or a parameter is not right.
     """
-    require_instance("scenario", scenario, Scenario, "a Scenario, as load returns one,")
+    _require_scenario(scenario)
     return build_part(scenario, "human"), build_part(scenario, "automation")
 
 
 def seeds_of(scenario: Scenario) -> Seeds:
-    """Return the seeds of a scenario's components, spawned from its own: always the same."""
+    """Return the seeds of a scenario's components, spawned from its own: always the same.
+
+    Raises
+    ------
+    InputError
+        If it is no scenario.
+    """
+    _require_scenario(scenario)
     env, human, automation = np.random.SeedSequence(scenario.seed).spawn(3)
     generator = np.random.default_rng
     return Seeds(int(env.generate_state(1)[0]), generator(human), generator(automation))
 
 
 def situation_of(scenario: Scenario, env: CowalkEnv) -> Situation:
-    """Return what both agents know before they start, in an environment that has been reset."""
+    """Return what both agents know before they start, in an environment that has been reset.
+
+    Raises
+    ------
+    InputError
+        If one of them is of another kind.
+    """
+    _require_scenario(scenario)
+    require_instance("env", env, CowalkEnv, "a CowalkEnv")
     return Situation(
         scenario.world.path,
         scenario.pace,
@@ -92,3 +107,7 @@ def situation_of(scenario: Scenario, env: CowalkEnv) -> Situation:
         extent(env),
         scenario.rates,
     )
+
+
+def _require_scenario(given: object) -> None:
+    require_instance("scenario", given, Scenario, "a Scenario, as load returns one,")

@@ -83,10 +83,11 @@ class SingleSeatEnv(gymnasium.Env[Any, Any]):
         reward: RewardParameters | Mapping[str, Any] | None = None,
         render_mode: str | None = None,
     ) -> None:
-        if seat not in SEATS:
+        if not isinstance(seat, str) or seat not in SEATS:
             raise InputError(f"seat = {shown(seat)}: must be one of {', '.join(SEATS)}", ("seat",))
         require_flag("normalise", normalise)
-        if render_mode not in (None, *self.metadata["render_modes"]):
+        modes = self.metadata["render_modes"]
+        if not (render_mode is None or (isinstance(render_mode, str) and render_mode in modes)):
             what = f"render_mode = {shown(render_mode)}: must be rgb_array, or be left out"
             raise InputError(what, ("render_mode",))
         chosen = scenario if isinstance(scenario, Scenario) else load(scenario)

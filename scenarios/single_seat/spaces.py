@@ -71,7 +71,7 @@ class LearnerObservation:
     """
 
     def __init__(self, scenario: Scenario, form: str, normalise: bool) -> None:
-        if form not in ("flat", "dict"):
+        if not isinstance(form, str) or form not in ("flat", "dict"):
             raise InputError(f"observation = {form!r}: must be one of flat, dict", ("observation",))
         self._flat = form == "flat"
         self._type: Any = np.float32 if normalise else np.float64

@@ -55,7 +55,7 @@ def read_columns(file: Path) -> tuple[dict[str, Array], dict[str, str], int]:
     Raises
     ------
     InputError
-        If it is no such file.
+        If it is no such file, or a column of it does not hold numbers.
     """
     import pyarrow as pa
     import pyarrow.parquet as pq
@@ -67,5 +67,11 @@ def read_columns(file: Path) -> tuple[dict[str, Array], dict[str, str], int]:
     units = {
         field.name: (field.metadata or {}).get(b"unit", b"").decode() for field in table.schema
     }
-    form = int((table.schema.metadata or {}).get(_FORM, b"1"))
-    return {name: table.column(name).to_numpy() for name in table.column_names}, units, form
+    for field in table.schema:
+        if not (pa.types.is_floating(field.type) or pa.types.is_integer(field.type)):
+            what = f"column {field.name!r} holds {field.type}; numbers are expected"
+            raise InputError(f"{file}: {what}")
+    form = (table.schema.metadata or {}).get(_FORM, b"1").decode(errors="replace")
+    if not form.isdecimal():
+        raise InputError(f"{file}: {_FORM.decode()} = {form!r}: a whole number is expected")
+    return {name: table.column(name).to_numpy() for name in table.column_names}, units, int(form)

@@ -121,7 +121,8 @@ class CowalkEnv(WatchedEnv):
         )
         self.world, self.rates, self.bounds, self.pace = world, rates, bounds, pace
         self.steps_per_episode = given.steps
-        if render_mode not in (None, *self.metadata["render_modes"]):
+        modes = self.metadata["render_modes"]
+        if not (render_mode is None or (isinstance(render_mode, str) and render_mode in modes)):
             raise refusal("render_mode", render_mode, "known: None, human, rgb_array")
         self.render_mode = render_mode
         watched = render_mode == "human"

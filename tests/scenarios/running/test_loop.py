@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from pyarrow import parquet
 
 from cowalk.scenarios import (
     Recorder,
@@ -301,6 +302,30 @@ def test_keys_and_columns_that_were_renamed_are_refused_with_the_new_name(tmp_pa
     monkeypatch.setattr(trace_module, "FORMAT", 1)
     with pytest.raises(InputError, match="written in form 2, this cowalk reads up to 1"):
         Trace.read(tmp_path / "trace.parquet")
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda table: table.replace_schema_metadata({"cowalk.format": "new"}), "whole number"),
+        (lambda table: table.set_column(1, "x", [["left"] * len(table)]), "'x' holds string"),
+    ],
+)
+def test_a_file_that_is_no_trace_is_refused(change, said, tmp_path):
+    file = tmp_path / "trace.parquet"
+    run(load("puddle", ["plant=unicycle", "duration=1", "expect={}"])).trace.write(file)
+    parquet.write_table(change(parquet.read_table(file)), file)
+    with pytest.raises(InputError, match=said):
+        Trace.read(file)
+
+
+@pytest.mark.parametrize("wrong", [None, "puddle", {}])
+def test_what_a_loop_of_ones_own_needs_refuses_nonsense(wrong):
+    for call in (seeds_of, build_agents, lambda given: situation_of(given, make_env("puddle"))):
+        with pytest.raises(InputError, match="a Scenario, as load returns one"):
+            call(wrong)
+    with pytest.raises(InputError, match="a CowalkEnv"):
+        situation_of(load("puddle"), wrong)
 
 
 def test_rows_say_what_the_sensor_made_of_the_true_wrench_and_what_wheels_are_asked():
