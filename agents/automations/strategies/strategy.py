@@ -115,7 +115,8 @@ class Strategy(ABC):
             settings, pose = self.negotiation, observation["pose_world"]
             self._problem = PROBLEMS[settings.dimensions](settings, self._situation, pose)
             self._own = self._problem.wish()
-            self._own.flags.writeable = False  # observers are handed it
+            self._told = self._own.copy()
+            self._told.flags.writeable = False  # what an observer hears is not its to change
         estimate = self._estimate(observation)
         if negotiating:
             self._negotiate(observation, estimate)
@@ -142,7 +143,7 @@ class Strategy(ABC):
             dt=self._situation.period,
             time=observation["time"][..., 0],
         )
-        estimate = self.observer.update(sample, self._own)
+        estimate = self.observer.update(sample, self._told)
         if estimate is not self._estimated:
             require_estimate(self.observer, estimate, observation["twist"].shape)
         return estimate
