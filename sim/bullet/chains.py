@@ -11,7 +11,7 @@ from ..basics.frames import Vector
 from ..engine.engine import engine, load
 from ..robot.drive import DriveParameters, SlipDrive, slip_gains
 from ..urdf.chain import link, planar
-from ..urdf.read import Rigid
+from ..urdf.rigid import Rigid
 
 State = tuple[float, ...]
 

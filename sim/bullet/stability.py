@@ -21,7 +21,7 @@ from ..body.grip import GripParameters
 from ..body.human_body import HumanBody
 from ..body.walker import WalkerParameters, legs_of
 from ..robot.drive import DriveParameters, slip_gains
-from ..urdf.read import Rigid
+from ..urdf.rigid import Rigid
 
 GROWTH = 1e-6
 """Growth of an update that is rounding: where nothing holds a body, its motion just goes on."""

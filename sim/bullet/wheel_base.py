@@ -10,7 +10,7 @@ from ..basics.frames import Vector
 from ..engine.engine import WorldState, engine, load
 from ..robot.drive import Command, DriveParameters
 from ..robot.wheels import wheel_speeds
-from ..urdf.read import Rigid
+from ..urdf.rigid import Rigid
 from .chains import State, free_body
 
 WHEEL_MASS, WHEEL_WIDTH = 1.5, 0.04

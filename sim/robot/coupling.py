@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from ..basics.frames import Vector
 from ..basics.validators import Range, require_choices, require_effect, require_ranges
-from ..urdf.read import Rigid
+from ..urdf.rigid import Rigid
 from ..world.outline import Outline, rectangle
 
 COUPLINGS = ("handle", "stretcher")

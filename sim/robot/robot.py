@@ -3,22 +3,32 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from importlib.resources import files
 from pathlib import Path
 from xml.etree import ElementTree
 
+import numpy as np
+
 from ..basics.errors import InputError
 from ..basics.frames import Vector
+from ..basics.lists import require_entries
 from ..basics.registry import did_you_mean
-from ..basics.validators import require, require_text
-from ..urdf.read import Rigid, left_right_swapped, lump, read_robot
+from ..basics.validators import Range, require, require_range, require_text
+from ..urdf.posture import put_joints
+from ..urdf.read import left_right_swapped, link_frames, read_robot
+from ..urdf.rigid import Rigid, lump
 from ..urdf.solids import Solid, robot_outline, robot_solids
 from ..world.outline import Outline, disc
 from .shipped import BASE_RADIUS, CAMERA_PLACE
 
 HANDLES_APART = 0.44
 """Distance of the two hands on one handle bar, m (inferred: shoulder breadth)."""
+OFFSET: Range = (-3.0, 3.0, "m")
+"""Of a handle from its link, each way (inferred: the size of what two walk with)."""
+JOINT: Range = (-100.0, 100.0, "rad or m")
+"""Where a joint may be; the file has narrower limits of its own."""
 DRAWN = (".obj", ".stl", ".dae")
 """Mesh files that the engine draws."""
 
@@ -31,9 +41,14 @@ class RobotParameters:
     ----------
     urdf : str, optional
         Path of a URDF; its root link moves on the floor plane, x forward and z up, its own
-        joints are locked at zero. None is the robot that ships.
+        joints are locked. None is the robot that ships.
     handle : str
         Name of the link at whose origin it is held.
+    handle_offset : (x, y, z)
+        Where it is held from there, in the axes of that link, m.
+    joints : mapping of str to float
+        Where its own joints are locked, by their names: rad, or m for one that slides; the
+        others at zero, or where they follow one of these.
     camera : str
         Name of the link at whose origin it sees. A robot without a link "camera" sees from the
         front of its outline, as high up as its shapes reach.
@@ -41,18 +56,27 @@ class RobotParameters:
     Raises
     ------
     InputError
-        If one is no text. What is not in the file is refused by `robot_of`.
+        If one is no text, or a number is none or makes no sense. What is not in the file is
+        refused by `robot_of`.
     """
 
     urdf: str | None = None
     handle: str = "handle"
     camera: str = "camera"
+    handle_offset: Vector = (0.0, 0.0, 0.0)
+    joints: Mapping[str, float] = field(default_factory=dict, hash=False)
 
     def __post_init__(self) -> None:
         right = self.urdf is None or (isinstance(self.urdf, str | os.PathLike) and self.urdf != "")
         require(right, "urdf", self.urdf, "the path of a URDF file is expected")
         for name in ("handle", "camera"):
             require_text(name, getattr(self, name), "the name of a link")
+        require_entries(self, ("handle_offset",), 3, OFFSET)
+        what = "positions of joints by their names are expected"
+        require(isinstance(self.joints, Mapping), "joints", self.joints, what)
+        for joint, position in self.joints.items():
+            require_text("joints", joint, "the name of a joint")
+            require_range(("joints", joint), position, JOINT)
 
 
 @dataclass(frozen=True)
@@ -112,8 +136,12 @@ def _robot_of(parameters: RobotParameters, hand: str, coupling: str) -> Robot:
     else:
         root = read_robot(Path(parameters.urdf))
         _absolute_meshes(root, Path(parameters.urdf).resolve().parent)
+    put_joints(root, parameters.joints)
     rigid = lump(root)
-    handle = _place_of(rigid, "handle", parameters.handle)
+    _place_of(rigid, "handle", parameters.handle)
+    turn, origin = link_frames(root)[parameters.handle]
+    x, y, z = (float(part) for part in origin + turn @ np.array(parameters.handle_offset))
+    handle = x, y, z
     handles = two_hands(handle) if hand == "both" else (handle,)
     # A robot without any shape is taken for one as large as that which ships.
     solids = robot_solids(root)
@@ -168,7 +196,7 @@ def _mesh_path(name: str, folder: Path) -> Path:
 
 
 def _locked(root: ElementTree.Element) -> str:
-    """Return the robot with its joints fixed where they are at zero, for who draws it."""
+    """Return the robot with its joints fixed where they are, for who draws it."""
     for joint in root.findall("joint"):
         joint.set("type", "fixed")
         for part in list(joint):

@@ -11,6 +11,7 @@ import numpy as np
 from ..basics.errors import InputError
 from ..basics.motion import Array
 from ..basics.registry import did_you_mean
+from .unexpanded import substitution
 
 Element = ElementTree.Element
 
@@ -46,6 +47,9 @@ NUMBERS: dict[str, dict[str, Numbers]] = {
         "length": Numbers(1, LENGTH, None, 0.0),
     },
     "mesh": {"scale": Numbers(3, "x y z", "1 1 1")},
+    "axis": {"xyz": Numbers(3, "x y z", "1 0 0")},
+    "limit": {key: Numbers(1, "rad or m", "0") for key in ("lower", "upper")},
+    "mimic": {"multiplier": Numbers(1, "", "1"), "offset": Numbers(1, "rad or m", "0")},
     "color": {"rgba": Numbers(4, "red green blue alpha from 0 to 1", None, 0.0)},
 }
 """By tag and attribute, everything that is read as numbers, by us or by who draws it."""
@@ -76,7 +80,10 @@ def numbers(element: Element, attribute: str) -> Array:
     given = f'<{element.tag}> without "{attribute}"'
     if text is not None:
         given = f'<{element.tag} {attribute}="{" ".join(parts)}">'
-    raise InputError(f"{given}: must be {some}{least}, {rule.meaning}")
+    if left := substitution(text):
+        raise InputError(f"{given}: {left}")
+    meaning = f", {rule.meaning}" if rule.meaning else ""
+    raise InputError(f"{given}: must be {some}{least}{meaning}")
 
 
 def number(element: Element, attribute: str) -> float:
@@ -126,10 +133,15 @@ def _shape(element: Element) -> None:
         raise InputError(f"unknown shape <{shape.tag}>: {right}")
     if shape.tag == "mesh" and not shape.get("filename"):
         raise InputError('<mesh> without "filename": must name a mesh file')
+    if left := substitution(shape.get("filename")):
+        raise InputError(f'<mesh filename="{shape.get("filename")}">: {left}')
 
 
 def _tree(root: Element) -> None:
     """Refuse names that are missing, double or unknown, and links with two joints above them."""
+    for part in (*root.findall("link"), *root.findall("joint")):
+        if left := substitution(name := part.get("name")):
+            raise InputError(f'<{part.tag} name="{name}">: {left}')
     known: list[str] = []
     for link in root.findall("link"):
         name = link.get("name", "")
@@ -146,6 +158,8 @@ def _tree(root: Element) -> None:
             link_name = found.get("link", "") if found is not None else ""
             if not link_name:
                 raise InputError(f'joint {name!r}: no <{end} link="...">; name a link')
+            if left := substitution(link_name):
+                raise InputError(f'joint {name!r}: <{end} link="{link_name}">: {left}')
             if link_name not in known:
                 hint = did_you_mean(link_name, known)
                 raise InputError(f"joint {name!r}: no {end} link {link_name!r}; {hint}")

@@ -58,7 +58,7 @@ class Solid:
 def robot_solids(root: ElementTree.Element) -> tuple[Solid, ...]:
     """Return the collision shapes of a robot, or if it has none the visible ones.
 
-    All joints are at zero; a robot may have neither.
+    Joints are where the file puts them; a robot may have neither.
 
     Parameters
     ----------
@@ -139,7 +139,10 @@ def _solid(link: str, element: ElementTree.Element, frame: Frame) -> Solid:
 
 
 def _mesh(name: str) -> tuple[Array, NDArray[np.int64]]:
-    """Return the vertices of a mesh file, shape (n, 3), and its triangles, shape (m, 3).
+    """Return the vertices of a mesh file, shape (n, 3), m, and its triangles, shape (m, 3).
+
+    A file that states its unit, as COLLADA does, is read in it; others are in m. Which way is
+    up in COLLADA is not followed, as robots are published.
 
     Raises
     ------
@@ -151,6 +154,8 @@ def _mesh(name: str) -> tuple[Array, NDArray[np.int64]]:
 
     try:
         mesh = trimesh.load_mesh(name)
+        if mesh.units is not None:
+            mesh.convert_units("meters")
         vertices, faces = np.asarray(mesh.vertices, dtype=float), np.asarray(mesh.faces)
     except ImportError as error:
         raise ValueError(f"mesh {name!r}: {error}; or give it as STL or OBJ") from error

@@ -27,7 +27,7 @@ from cowalk.sim.robot.robot import RobotParameters, robot_of
 from cowalk.sim.sensor.parameters import SensorParameters
 from cowalk.sim.sensor.presets import sensor_preset
 from cowalk.sim.sensor.wrench import SensorMount
-from cowalk.sim.urdf.read import lump
+from cowalk.sim.urdf.rigid import lump
 from cowalk.sim.world.world import World
 
 

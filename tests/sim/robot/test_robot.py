@@ -15,7 +15,8 @@ from cowalk.sim.body.human_body import human_body
 from cowalk.sim.bullet.plant import BulletPlant
 from cowalk.sim.engine.engine import connect, disconnect, engine, load
 from cowalk.sim.robot.robot import RobotParameters, robot_of
-from cowalk.sim.urdf.read import left_right_swapped, link_frames, lump
+from cowalk.sim.urdf.read import left_right_swapped, link_frames
+from cowalk.sim.urdf.rigid import lump
 from cowalk.sim.world.world import World
 
 OWN = """<robot name="own">
