@@ -76,7 +76,9 @@ def _put(joint: ElementTree.Element, position: float) -> None:
         low, high = number(limit, "lower"), number(limit, "upper")
         if not low - ROUNDING <= position <= high + ROUNDING:
             unit = "m" if joint.get("type") in SLIDES else "rad"
-            raise InputError(f"{position:g} {unit} is beyond its limits, {low:g} to {high:g} {unit}")
+            raise InputError(
+                f"{position:g} {unit} is beyond its limits, {low:g} to {high:g} {unit}"
+            )
     _move(joint, position)
 
 

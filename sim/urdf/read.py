@@ -13,6 +13,7 @@ from ..basics.frames import Frame, rotation, within
 from .accepted import check_urdf, numbers
 from .unexpanded import macro, undeclared
 
+
 def read_robot(path: Path) -> ElementTree.Element:
     """Return the root element of a URDF file.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
@@ -11,11 +12,20 @@ from cowalk.sim.basics.lists import require_pairs
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
 from cowalk.sim.basics.situation import Situation
-from cowalk.sim.basics.validators import Range, require_choices, require_instance, require_ranges
+from cowalk.sim.basics.validators import (
+    Range,
+    require,
+    require_choices,
+    require_instance,
+    require_ranges,
+    require_text,
+)
 
 from ...basics.protocols import Truth
 from ..laws.demand import FORCE_MAX, GAIN, Pair, prescribed_truth
-from .recording import Columns, read_recording, resample
+from .recording import Columns, read_recording
+from .resampling import resample
+from .sensor import RecordingSensor
 from .units import Units
 
 RANGES: dict[str, Range] = {"start": (0.0, 86400.0, "s"), "scale": (-1000.0, 1000.0, "")}
@@ -40,6 +50,12 @@ class RecordedHuman:
         CSV, Parquet or NumPy (.npy, .npz) file.
     columns : Columns
         Which of its columns hold time and force.
+    rate : float, optional
+        Rows a second, Hz, where no column holds the time.
+    rows : mapping of str to str
+        What must stand in other columns of a row, see `read_recording`.
+    sensor : RecordingSensor
+        How it was mounted, and what it read at rest.
     units : Units
     gaps : {"refuse", "hold"}
         What becomes of a file in which rows are missing: it is refused, or the last force is
@@ -51,7 +67,7 @@ class RecordedHuman:
     start : float
         Time at which the recording begins to play, s; 0 N before.
     scale : float
-        Factor on the force.
+        Factor on the force, on top of the sensor's signs.
     force_max : (float, float)
         Force forward and sideways that counts as full stubbornness, N.
     gain : float
@@ -68,6 +84,9 @@ class RecordedHuman:
 
     file: str
     columns: Columns = field(default_factory=Columns)
+    rate: float | None = None
+    rows: Mapping[str, str] = field(default_factory=dict)
+    sensor: RecordingSensor = field(default_factory=RecordingSensor)
     units: Units = field(default_factory=Units)
     gaps: Literal["refuse", "hold"] = "refuse"
     resample: Literal["mean", "linear", "hold"] = "mean"
@@ -80,10 +99,24 @@ class RecordedHuman:
     def __post_init__(self) -> None:
         require_instance("columns", self.columns, Columns)
         require_instance("units", self.units, Units)
+        require_instance("sensor", self.sensor, RecordingSensor)
+        what = "texts by names of columns are expected"
+        require(isinstance(self.rows, Mapping), "rows", self.rows, what)
+        for column, value in self.rows.items():
+            require_text("rows", column, "the name of a column")
+            require_text(("rows", column), value, "the text that stands there")
         require_choices(self, CHOICES)
         require_pairs(self, {"force_max": FORCE_MAX})
         require_ranges(self, RANGES | {"gain": GAIN}, lanes=True)
-        self._time, self._force = read_recording(self.file, self.columns, self.units, self.gaps)
+        self._time, self._force = read_recording(
+            self.file,
+            self.columns,
+            self.units,
+            self.gaps,
+            rate=self.rate,
+            rows=self.rows,
+            sensor=self.sensor,
+        )
 
     def reset(self, rng: np.random.Generator, situation: Situation) -> None:
         """See `Human.reset`."""

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import zipfile
 import zlib
+from collections.abc import Iterable
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -11,10 +13,39 @@ import numpy as np
 
 from cowalk.sim.basics.errors import InputError
 
-Table = tuple[dict[str, Any], dict[str, str]]
-"""Columns by name, None for a name that several have; units that the file states, by name."""
+from .layout import Layout, csv_layout
 
-_SEPARATORS = {";": "semicolons", "\t": "tabs"}
+
+@dataclass(frozen=True)
+class Table:
+    """What a file holds.
+
+    Attributes
+    ----------
+    path : Path
+    columns : dict of str to array
+        By name; None for a name that several have. Without names, by number from "0".
+    units : dict of str to str
+        What the file states of its columns' units, apart from their names.
+    named : bool
+        Whether the columns have names.
+    layout : Layout, optional
+        Of a CSV file.
+    """
+
+    path: Path
+    columns: dict[str, Any]
+    units: dict[str, str] = field(default_factory=dict)
+    named: bool = True
+    layout: Layout | None = None
+
+    def row(self, index: int) -> int:
+        """Return how a message names a row: the line of a CSV file from 1, else from 0."""
+        return index if self.layout is None else self.layout.line(self.path, index)
+
+    def faulty(self, what: str) -> InputError:
+        """Return the error of this file; see `faulty`."""
+        return faulty(self.path, what)
 
 
 def faulty(path: Path, what: str) -> InputError:
@@ -22,7 +53,7 @@ def faulty(path: Path, what: str) -> InputError:
     return InputError(f"file = {str(path)!r}: {what}", ("file",))
 
 
-def first_line(error: Exception) -> str:
+def _first_line(error: Exception) -> str:
     """Return the first line of what another library says."""
     return str(error).partition("\n")[0]
 
@@ -33,9 +64,10 @@ def read_table(path: Path) -> Table:
     Raises
     ------
     InputError
-        If the file's ending is not known, or the file is missing or cannot be read.
+        If the file's ending, in small letters or capitals, is not known, or the file is missing
+        or cannot be read.
     """
-    reader = _READERS.get(path.suffix)
+    reader = _READERS.get(path.suffix.lower())
     if reader is None:
         raise faulty(path, f"ends in none of {', '.join(_READERS)}")
     if not path.is_file():
@@ -43,36 +75,34 @@ def read_table(path: Path) -> Table:
     return reader(path)
 
 
-def _columns(table: Any) -> dict[str, Any]:
-    """Return an Arrow table's columns by name; None for a name that several have."""
-    names = table.column_names
+def _by_name(names: list[str], columns: Iterable[Any]) -> dict[str, Any]:
+    """Return columns by name; None for a name that several have."""
     return {
-        name: None if names.count(name) > 1 else table.column(i) for i, name in enumerate(names)
+        name: None if names.count(name) > 1 else column
+        for name, column in zip(names, columns, strict=True)
     }
 
 
 def _read_csv(path: Path) -> Table:
-    from pyarrow import ArrowInvalid, csv
+    from pyarrow import ArrowInvalid, csv, string
 
-    with path.open("rb") as file:
-        header = file.readline()
     try:
-        header.decode("utf-8")
-        other = next((name for sign, name in _SEPARATORS.items() if sign.encode() in header), None)
-        if other and b"," not in header:
-            raise faulty(
-                path,
-                f"its columns are separated by {other}; save it with commas between "
-                "columns, and points in numbers",
-            )
-        return _columns(csv.read_csv(path)), {}
-    except UnicodeDecodeError as error:
-        raise faulty(
-            path,
-            f"its header is not UTF-8 (byte {header[error.start]:#04x}); save the file as UTF-8",
-        ) from error
-    except ArrowInvalid as error:
-        raise faulty(path, f"cannot be read as CSV: {first_line(error)}") from error
+        layout = csv_layout(path)
+        # Columns are read by number, so that any names will do.
+        numbers = [str(number) for number in range(len(layout.names))]
+        reading = csv.ReadOptions(skip_rows=layout.skipped, column_names=numbers)
+        try:
+            found = csv.read_csv(path, read_options=reading)
+        except ArrowInvalid as error:
+            if "conversion error" not in str(error):
+                raise
+            # What a column holds is guessed from the file's first megabyte; some cell is not so.
+            text = csv.ConvertOptions(column_types=dict.fromkeys(numbers, string()))
+            found = csv.read_csv(path, read_options=reading, convert_options=text)
+    except ValueError as error:  # Arrow's own errors are some
+        raise faulty(path, f"cannot be read as CSV: {_first_line(error)}") from error
+    columns = _by_name(layout.names, found.columns)
+    return Table(path, columns, named=layout.named, layout=layout)
 
 
 def _read_parquet(path: Path) -> Table:
@@ -81,13 +111,13 @@ def _read_parquet(path: Path) -> Table:
     try:
         table = parquet.read_table(path)
     except (ArrowInvalid, OSError) as error:
-        raise faulty(path, f"cannot be read as Parquet: {first_line(error)}") from error
+        raise faulty(path, f"cannot be read as Parquet: {_first_line(error)}") from error
     units = {
         field.name: field.metadata[b"unit"].decode()
         for field in table.schema
         if field.metadata and b"unit" in field.metadata
     }
-    return _columns(table), units
+    return Table(path, _by_name(table.column_names, table.columns), units)
 
 
 def _read_numpy(path: Path) -> Table:
@@ -96,7 +126,7 @@ def _read_numpy(path: Path) -> Table:
             data = np.load(file, allow_pickle=False)
             if isinstance(data, np.lib.npyio.NpzFile):
                 with data:
-                    return dict(data), {}
+                    return Table(path, dict(data))
     except (ValueError, OSError, EOFError, zipfile.BadZipFile, zlib.error) as error:
         # NumPy's own words advise to load it unsafely.
         if str(error).startswith("Object arrays"):
@@ -105,10 +135,10 @@ def _read_numpy(path: Path) -> Table:
             what = f"is damaged, or no {path.suffix} file; write it anew with np.save or np.savez"
         raise faulty(path, f"cannot be read as NumPy: it {what}") from error
     if data.dtype.names:
-        return {name: data[name] for name in data.dtype.names}, {}
+        return Table(path, {name: data[name] for name in data.dtype.names})
     if data.ndim != 2:
         raise faulty(path, f"an array of shape {data.shape}; (rows, columns) is needed")
-    return {str(i): column for i, column in enumerate(data.T)}, {}
+    return Table(path, {str(i): column for i, column in enumerate(data.T)}, named=False)
 
 
 _READERS = {

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from pyarrow import parquet
 
 from cowalk.agents.humans.recorded.human import RecordedHuman
-from cowalk.agents.humans.recorded.recording import Columns, read_recording, resample
+from cowalk.agents.humans.recorded.recording import Columns, read_recording
+from cowalk.agents.humans.recorded.resampling import resample
 from cowalk.agents.humans.recorded.units import Units
 from cowalk.scenarios.cli import main as cli
 from cowalk.scenarios.trace.trace import Trace
