@@ -30,6 +30,7 @@ from cowalk.agents.humans.intention.intention import ChangeOfMind, IntentionSett
 from cowalk.agents.humans.open_loop import OpenLoopHuman
 from cowalk.agents.humans.recorded.human import RecordedHuman
 from cowalk.agents.humans.recorded.recording import Columns
+from cowalk.agents.humans.recorded.sensor import RecordingSensor
 from cowalk.agents.humans.recorded.units import Units
 from cowalk.agents.humans.slacking import SlackingHuman
 from cowalk.agents.humans.steady import SteadyHuman
@@ -102,6 +103,8 @@ KINDS = {
     "source": (None, 3, True, {}, object(), object),
     "class_": (3, "nonsense", True, [], object()),
     "mapping": (None, 3, "nonsense", True, [], [1], {3: 1}, {"nonsense": 1}),
+    "positions": (None, 3, "nonsense", True, [], {3: 1.0}, {"a": "b"}, {"a": math.nan}),
+    "texts": (None, 3, "nonsense", True, [], {3: "a"}, {"a": 3}, {"a": None}, {"a": ""}),
     "seats": (None, 3, "human", ("robot",), (3,), {"human": 1}),
 }
 """What is wrong for a value of each kind; ``?`` behind a name says that None may be given."""
@@ -216,7 +219,9 @@ ROWS = {
         "max_acceleration max_rate_change wheel_track wheel_radius max_wheel_speed friction",
         not_negative="delay",
     ),
-    RobotParameters: row({}, text="urdf? handle camera"),
+    RobotParameters: row(
+        {}, text="urdf? handle camera", triple="handle_offset", positions="joints"
+    ),
     cowalk.agents.NegotiationSettings: row(
         {},
         word="dimensions",
@@ -243,14 +248,16 @@ ROWS = {
     RecordedHuman: row(
         {"file": FILE},
         text="file",
-        thing="columns units",
+        thing="columns units sensor",
+        texts="rows",
         word="gaps resample at_end",
         not_negative="start",
         number="scale",
         pair_of_positive="force_max",
-        positive="gain",
+        positive="gain rate?",
     ),
-    Columns: row({}, text="time fx fy"),
+    Columns: row({}, text="time fx fy fz?"),
+    RecordingSensor: row({}, not_negative="zero", triple="signs rpy"),
     Units: row({}, word="time? force?"),
     SteadyHuman: row({}, **HUMAN, pair_of_share="level"),
     EscalatingHuman: row(

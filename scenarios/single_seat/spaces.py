@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
+from cowalk.sim.env.actions import pair_of
 from cowalk.sim.env.perception import observation_space
 
 from ..files.schema import Scenario
@@ -138,9 +139,9 @@ class LearnerAction:
         self._half: Array = (bounds.high.astype(float) - self._low) / 2.0
         self.space = Box(-1.0, 1.0, bounds.shape, np.float32) if normalise else bounds
 
-    def __call__(self, action: Any) -> Array:
-        """Return an action in the seat's own units."""
-        given = np.asarray(action, dtype=float)
-        if not self._normalise or given.shape != self.space.shape:
-            return given  # the environment judges it
-        return self._low + (given + 1.0) * self._half
+    def __call__(self, action: Any) -> Any:
+        """Return an action in the seat's own units; what is none as it is."""
+        given = pair_of(action)
+        if given is None or not self._normalise:
+            return action  # the environment judges it
+        return self._low + (given.astype(float) + 1.0) * self._half

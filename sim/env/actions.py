@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from gymnasium.spaces import Box
+from numpy.typing import NDArray
 
 from ..basics.errors import SimulationError
 from ..basics.motion import Array, TwistBounds
+from ..basics.validators import shown
 
 _WHAT = {"human": "force", "automation": "twist"}
+
+
+_REAL = "fiu"
+"""Kinds of NumPy's types whose values are real numbers."""
 
 
 class Actions:
@@ -33,6 +40,7 @@ class Actions:
         self._limits = {
             seat: (*box.low.tolist(), *box.high.tolist()) for seat, box in self.spaces.items()
         }
+        self._seats = " and ".join(self._limits)
 
     def of_both(
         self, actions: Mapping[str, Array], time: float
@@ -42,14 +50,18 @@ class Actions:
         Raises
         ------
         SimulationError
-            If a seat has no action or an action no seat, or `bounded` refuses one.
+            If it is no mapping, a seat has no action or an action no seat, or `bounded` refuses
+            one.
         """
+        if not isinstance(actions, Mapping):
+            raise SimulationError(
+                f"step: {shown(actions)} is no mapping; give an action to each of {self._seats}"
+            )
         if actions.keys() != self._limits.keys():
             missing = [f"{seat!r} has no action" for seat in self._limits if seat not in actions]
             unknown = [f"{name!r} is no seat" for name in actions if name not in self._limits]
-            seats = " and ".join(self._limits)
             raise SimulationError(
-                f"step: {', '.join(missing + unknown)}; give one to each of {seats}"
+                f"step: {', '.join(missing + unknown)}; give one to each of {self._seats}"
             )
         return (
             self.bounded("human", actions["human"], time),
@@ -71,11 +83,13 @@ class Actions:
         SimulationError
             If the action is not two finite numbers.
         """
-        if len(action) != 2:
+        pair = pair_of(action)
+        if pair is None:
             raise SimulationError(
-                f"the {seat}'s action is {action!r}: it must be 2 numbers, without batch axes"
+                f"the {seat}'s {_WHAT[seat]} is {shown(action)} at t = {time:g} s: it must be "
+                "2 numbers, without batch axes"
             )
-        first, second = float(action[0]), float(action[1])
+        first, second = float(pair[0]), float(pair[1])
         # The sum is NaN or infinite exactly if a part is.
         if not -1e300 < first + second < 1e300:
             raise SimulationError(
@@ -84,3 +98,12 @@ class Actions:
             )
         low_1, low_2, high_1, high_2 = self._limits[seat]
         return min(max(first, low_1), high_1), min(max(second, low_2), high_2)
+
+
+def pair_of(action: Any) -> NDArray[Any] | None:
+    """Return an action as an array of two real numbers; None if it is anything else."""
+    try:
+        pair = action if type(action) is np.ndarray else np.asarray(action)
+    except (ValueError, TypeError):  # lists of unequal length
+        return None
+    return pair if pair.shape == (2,) and pair.dtype.kind in _REAL else None

@@ -175,9 +175,7 @@ def _require_column(
         cure = 'it names no columns, say columns: {time: "0", fx: "1", fy: "2"}'
         if table.named:
             free = sorted(table.columns.keys() - (set(named.values()) - {name}))
-            suited = [
-                other for other in free if suits(table.path, quantity, other, units, table.units)
-            ]
+            suited = [other for other in free if _suits(table, quantity, other, units)]
             cure = did_you_mean(name, list(table.columns), suited)
         without = ""
         if quantity == "time":
@@ -194,3 +192,7 @@ def _refuse_missing(table: Table, name: str, values: Array, kept: Any) -> None:
             f"column {name!r} has no finite number in row {table.row(int(kept[wrong[0]]))} "
             f"({len(wrong)} such rows); fill or cut the gap"
         )
+
+
+def _suits(table: Table, quantity: str, name: str, units: Units) -> bool:
+    return not quantity or suits(table.path, quantity, name, units, table.units)

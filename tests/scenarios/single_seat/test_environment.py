@@ -150,7 +150,7 @@ def test_actions_without_sense_and_steps_out_of_turn_are_refused(seat_of):
     with pytest.raises(SimulationError, match="call reset before step"):
         env.step(np.zeros(2))
     env.reset(seed=0)
-    for action in (np.full(2, np.nan), np.zeros(3)):
+    for action in (np.full(2, np.nan), np.zeros(3), None, "ab", ["1", "2"], [1.0, 2.0j], {}):
         with pytest.raises(SimulationError, match="the automation's"):
             env.step(action)
     env.close()

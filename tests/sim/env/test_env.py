@@ -187,6 +187,42 @@ def test_an_action_that_is_not_finite_is_named(seat, bad):
         env.step(actions)
 
 
+MALFORMED = [
+    *(None, 3.0, "ab", b"ab", True, {}, {"v": 1.0, "omega": 0.0}, object(), range(3)),
+    *([], [1.0], [1.0, 2.0, 3.0], [[1.0, 2.0]], [[1.0], [2.0]], [[1.0], 2.0], np.zeros((2, 1))),
+    *(["1", "2"], [None, 1.0], [1.0, 2.0j], [True, False], np.array(["a", "b"])),
+    *(np.array([1.0, 2.0], dtype=object), np.zeros((2, 5)), np.array(1.0)),
+]
+
+
+@pytest.mark.parametrize("seat", ["human", "automation"])
+@pytest.mark.parametrize("bad", MALFORMED, ids=repr)
+def test_what_is_no_action_is_refused_in_one_line(seat, bad):
+    env = parallel_env(plant="unicycle")
+    env.reset(seed=0)
+    actions = {"human": np.zeros(2), "automation": np.zeros(2)}
+    with pytest.raises(SimulationError, match=f"the {seat}'s .* must be 2 numbers") as refused:
+        env.step(actions | {seat: bad})
+    assert "\n" not in str(refused.value)
+    env.step(actions)  # nothing was done
+
+
+@pytest.mark.parametrize("bad", [None, 3.0, [np.zeros(2), np.zeros(2)], "human"], ids=repr)
+def test_actions_that_are_no_mapping_are_refused(bad):
+    env = parallel_env(plant="unicycle")
+    env.reset(seed=0)
+    with pytest.raises(SimulationError, match=r"step: .* is no mapping; give an action to each"):
+        env.step(bad)
+
+
+@pytest.mark.parametrize("good", [[1, 2], (1.0, 2.0), np.array([1, 2], dtype=np.float16)])
+def test_any_two_real_numbers_are_an_action(good):
+    env = parallel_env(plant="unicycle")
+    env.reset(seed=0)
+    env.step({"human": good, "automation": np.zeros(2)})
+    assert env.applied[0] == (1.0, 2.0)
+
+
 def test_actions_are_clipped_to_the_action_space():
     env = parallel_env(plant="unicycle", force_limit=10.0)
     env.reset(seed=0)

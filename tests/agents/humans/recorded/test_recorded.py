@@ -135,6 +135,12 @@ def test_a_unit_that_nobody_knows_is_refused(tmp_path):
         ("fx_mV", "mV"),
         ("fx [m/s]", "m/s"),
         ("fx/counts", "counts"),
+        ("/ft/x/V", "V"),
+        ("fx (N m)", "N m"),
+        ("fx [N·m]", "N·m"),
+        ("fx [m]", "m"),
+        ("fx (deg/s)", "deg/s"),
+        ("fx [V] raw", "V"),
         ("fx_ms", "ms"),
         ("fx [stone]", "stone"),
     ],
@@ -153,13 +159,64 @@ def test_what_is_no_time_is_not_read_as_seconds(tmp_path, name):
         read_recording(file, Columns(time=name), Units())
 
 
-def test_a_remark_in_brackets_is_no_unit_where_the_scenario_states_one(tmp_path):
-    header = "t_s,force (left),fy_n"
-    file = write_csv(tmp_path / "r.csv", RISING, np.ones(10), np.ones(10), header)
-    columns = Columns(fx="force (left)")
-    with pytest.raises(InputError, match=r"'left'.*if that is no unit, say units\.force"):
+def test_an_unknown_word_where_units_stand_counts_only_if_the_scenario_states_none(tmp_path):
+    file = write_csv(tmp_path / "r.csv", RISING, np.ones(10), np.ones(10), "t_s,fx [raw],fy_n")
+    columns = Columns(fx="fx [raw]")
+    with pytest.raises(InputError, match=r"'raw'.*if that is no unit, say units\.force"):
         read_recording(file, columns, Units())
     np.testing.assert_allclose(read_recording(file, columns, Units(force="N"))[1], 1.0)
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("/arm/wrench/force/x", "/arm/wrench.force.x", "/ft/force/0", "F[0]", "F[x]", "F(t)"),
+        *(
+            "Fx (filtered)",
+            "Fx (left, smooth)",
+            "Fx_filtered",
+            "force/left",
+            "Fx [1]",
+            "x",
+            "F (2)",
+        ),
+    ],
+)
+def test_the_end_of_a_name_is_no_unit_unless_it_is_known_as_one(tmp_path, name):
+    file = tmp_path / "r.csv"
+    write_csv(file, RISING, np.full(10, 2.0), np.ones(10), f't_s,"{name}",fy_n')
+    force = read_recording(str(file), Columns(fx=name), Units())[1]
+    np.testing.assert_allclose(force, [[2.0, 1.0]] * 10)
+
+
+@pytest.mark.parametrize(
+    ("name", "factor"),
+    [
+        *(("F/N", 1.0), ("/ft/x/mN", 1e-3), ("Fx [newton]", 1.0), ("Fx (Newtons)", 1.0)),
+        *(("Fx [kN] filtered", 1e3), ("Fx (filtered) [mN]", 1e-3), ("fx_kilonewton", 1e3)),
+        *(("Fx [kp]", 9.80665), ("Fx [ lbf ]", 4.4482216152605)),
+    ],
+)
+def test_units_of_force_are_known_in_other_spellings(tmp_path, name, factor):
+    values = np.full(10, 1.0 / factor)
+    file = write_csv(tmp_path / "r.csv", RISING, values, np.ones(10), f"t_s,{name},fy_n")
+    force = read_recording(file, Columns(fx=name), Units())[1]
+    np.testing.assert_allclose(force[:, 0], 1.0, rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("name", "factor"),
+    [
+        *(("t/ms", 1e-3), ("t [sec]", 1.0), ("time (Seconds)", 1.0), ("stamp_nsec", 1e-9)),
+        *(("t [µs]", 1e-6), ("t [μs]", 1e-6), ("t_usec", 1e-6), ("t (milliseconds)", 1e-3)),
+    ],
+)
+def test_units_of_time_are_known_in_other_spellings(tmp_path, name, factor):
+    file = write_csv(
+        tmp_path / "r.csv", RISING / factor, np.ones(10), np.ones(10), f"{name},fx_n,fy_n"
+    )
+    time = read_recording(file, Columns(time=name), Units())[0]
+    np.testing.assert_allclose(time, RISING, rtol=1e-6)
 
 
 def test_a_column_in_another_unit_is_not_proposed(tmp_path):
