@@ -183,7 +183,7 @@ def _parameter_model(
 
     Fields are numbered, since a parameter may bear a name that a pydantic model cannot use.
     """
-    hints = _hints(constructor)
+    hints = hints_of(constructor)
     try:
         return _model_of(constructor, hints, shared)
     except (PydanticSchemaGenerationError, PydanticUserError):  # for one of them at least
@@ -211,7 +211,7 @@ def _model_of(
     return create_model("Parameters", __config__=config, **fields), names
 
 
-def _hints(constructor: Callable[..., Any]) -> dict[str, Any]:
+def hints_of(constructor: Callable[..., Any]) -> dict[str, Any]:
     """Return the annotations of the parameters, as far as they exist at run time."""
     if not inspect.isclass(constructor):
         sources: list[Any] = [constructor]

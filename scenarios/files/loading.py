@@ -20,6 +20,7 @@ from cowalk.sim.basics.validators import require
 
 from .diagnosis import check
 from .documents import Document, KeyPath, dotted, knows_exponents, parse
+from .file_names import begin_paths_at
 from .overrides import Change, Dropped, OverrideError, expand_names, override
 from .schema import Scenario
 from .shipped import scenario_library
@@ -78,10 +79,11 @@ def load(source: str | Path, overrides: Sequence[str] = ()) -> Scenario:
     Parameters
     ----------
     source : str or Path
-        Name in the library, or path of a YAML file.
+        Name in the library, or path of a YAML file. Relative paths in it begin where it lies.
     overrides : sequence of str
-        ``dotted.key=VALUE``, the value in YAML, list entries by their index. A part set to
-        another name is swapped (see `cowalk.scenarios.files.overrides.override`).
+        ``dotted.key=VALUE``, the value in YAML, list entries by their index; relative paths
+        begin in the working folder. A part set to another name is swapped
+        (see `cowalk.scenarios.files.overrides.override`).
 
     Raises
     ------
@@ -131,6 +133,8 @@ def read(source: str | Path, overrides: Sequence[str] = ()) -> Reading:
             given = {path: given[path] for path in there if path in given}
             for written in changes[-1].written:
                 given |= {path: "flag" for path in there if path[: len(written)] == written}
+    folder = file.resolve().parent
+    begin_paths_at(folder, document.data, lambda place: given.get(place) == "file")
     scenario, problems = check(document)
     if problems:
         first = min(problems, key=lambda problem: document.line(problem.path))
@@ -179,6 +183,7 @@ def faults(file: str | Path) -> list[FileFault]:
     """
     document = read_document(Path(file))
     expand_names(document.data)
+    begin_paths_at(Path(file).resolve().parent, document.data, lambda place: True)
     found = [
         FileFault(Path(file), document.line(problem.path), dotted(problem.path), problem.message)
         for problem in check(document)[1]

@@ -12,6 +12,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from ..basics.errors import InputError
+from ..basics.file_names import FileName
 from ..basics.frames import Vector
 from ..basics.lists import require_entries
 from ..basics.registry import did_you_mean
@@ -39,7 +40,7 @@ class RobotParameters:
 
     Parameters
     ----------
-    urdf : str, optional
+    urdf : FileName, optional
         Path of a URDF; its root link moves on the floor plane, x forward and z up, its own
         joints are locked. None is the robot that ships.
     handle : str
@@ -60,7 +61,7 @@ class RobotParameters:
         refused by `robot_of`.
     """
 
-    urdf: str | None = None
+    urdf: FileName | None = None
     handle: str = "handle"
     camera: str = "camera"
     handle_offset: Vector = (0.0, 0.0, 0.0)

@@ -8,6 +8,7 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
+from cowalk.sim.basics.file_names import FileName
 from cowalk.sim.basics.lists import require_pairs
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
@@ -46,7 +47,7 @@ class RecordedHuman:
 
     Parameters
     ----------
-    file : str
+    file : FileName
         CSV, Parquet or NumPy (.npy, .npz) file.
     columns : Columns
         Which of its columns hold time and force.
@@ -82,7 +83,7 @@ class RecordedHuman:
 
     closed_loop: ClassVar[bool] = False
 
-    file: str
+    file: FileName
     columns: Columns = field(default_factory=Columns)
     rate: float | None = None
     rows: Mapping[str, str] = field(default_factory=dict)

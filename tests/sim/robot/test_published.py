@@ -23,7 +23,8 @@ BASE = """<link name="base"><inertial><origin xyz="0 0 0.3"/><mass value="40"/>
 ARM = """<link name="upper"><inertial><mass value="4"/>
   <inertia ixx="0.01" iyy="0.02" izz="0.02"/></inertial></link>
 <joint name="shoulder" type="revolute"><parent link="base"/><child link="upper"/>
-  <origin xyz="0.2 0 0.9" rpy="0 0 0.5"/><axis xyz="0 0 2"/><limit lower="-1.5" upper="1.5"/></joint>
+  <origin xyz="0.2 0 0.9" rpy="0 0 0.5"/><axis xyz="0 0 2"/>
+  <limit lower="-1.5" upper="1.5"/></joint>
 <link name="fore"><inertial><origin xyz="0.3 0 0"/><mass value="2"/></inertial></link>
 <joint name="elbow" type="continuous"><parent link="upper"/><child link="fore"/>
   <origin xyz="0.4 0 0" rpy="0.3 0.2 0.1"/><axis xyz="0 1 0"/></joint>
@@ -92,7 +93,7 @@ def test_a_part_that_matters_may_not(robot, moments):
 
 
 def test_nor_a_speck_whose_inertia_would_matter(robot):
-    with pytest.raises(InputError, match="link 'part' has principal moments 0.01, 0.01, 1 kg"):
+    with pytest.raises(InputError, match=r"link 'part' has principal moments 0.01, 0.01, 1 kg"):
         robot(urdf(part(inertial(0.01, ixx=0.01, iyy=0.01, izz=1.0))))
 
 
@@ -179,7 +180,7 @@ def test_what_xacro_should_have_expanded_is_named_as_such(robot, old, new):
     "text",
     [
         f'<robot name="own" {XACRO}><xacro:include filename="base.xacro"/></robot>',
-        f'<robot name="own" {XACRO}><xacro:macro name="base"><link name="b"/></xacro:macro></robot>',
+        f'<robot name="own" {XACRO}><xacro:macro name="a"><link name="b"/></xacro:macro></robot>',
         '<robot name="own"><xacro:include filename="base.xacro"/></robot>',
         '<robot name="own"><property name="width" value="1"/></robot>',
     ],
