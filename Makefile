@@ -6,7 +6,7 @@ PYTHON ?= $(shell for python in python3.11 python3.12 python3 python; do \
 	"$$python" -c 'import sys; sys.exit(not (3, 11) <= sys.version_info < (3, 13))' 2>/dev/null \
 	&& echo "$$python" && break; done)
 
-.PHONY: help run test lint types bench learn clean
+.PHONY: help run test lint types bench learn robots clean
 
 help:  ## Show the targets
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 8
@@ -51,6 +51,14 @@ bench: .venv/run  ## Measure speed, as ratios within one run
 learn: .venv/learn  ## Check the single seat with stable-baselines3, and let PPO learn one for 2,000 steps
 	$(BIN)/python -m pytest -m learn
 	$(BIN)/python docs/examples/learned-seat/ppo.py
+
+# Models that makers publish, which nothing else needs.
+.venv/robots: .venv/develop
+	$(PIP) --editable '.[robots]'
+	@touch $@
+
+robots: .venv/robots  ## Walk with robots as their makers publish them
+	$(BIN)/python -m pytest -m robots
 
 clean:  ## Remove everything that was made here
 	rm -rf .venv build dist runs *.egg-info .mypy_cache .pytest_cache .ruff_cache .hypothesis
