@@ -31,7 +31,7 @@ def begin_paths_at(folder: Path, data: Any, counts: Callable[[KeyPath], bool]) -
     """
     for part, _, at, section in sections(data):
         parameters = section.get(PARAMETERS) if isinstance(section, dict) else None
-        if part.preset or not _holds_text(parameters):
+        if part.preset or not isinstance(parameters, dict) or not _holds_text(parameters):
             continue  # imports nothing that is not needed
         try:
             hints = hints_of(part.registry().get(section[part.named_by]))

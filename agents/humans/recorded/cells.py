@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cowalk.sim.basics.motion import Array
 
@@ -71,7 +72,7 @@ def texts(table: Table, name: str) -> list[str]:
     return [f"{cell:g}" if isinstance(cell, float) else str(cell).strip() for cell in cells]
 
 
-def _flat(table: Table, name: str) -> Any:
+def _flat(table: Table, name: str) -> NDArray[Any]:
     """Return a column as an array of one axis; empty cells of text are None or empty."""
     cells = np.asarray(table.columns[name])
     if cells.ndim != 1:

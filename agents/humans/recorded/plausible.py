@@ -40,7 +40,7 @@ def refuse_implausible(signal: Signal, rate: float | None) -> None:
     column = signal.names.get("time", "")
     falling = np.flatnonzero(steps <= 0.0)
     if len(falling):
-        row = falling[0] + 1
+        row = int(falling[0]) + 1
         raise faulty(
             f"column {column!r} does not rise in row {signal.row(row)}: "
             f"{time[row]:g} s after {time[row - 1]:g} s"
@@ -61,7 +61,7 @@ def refuse_implausible(signal: Signal, rate: float | None) -> None:
                 f"{found[1]:.4g} Hz; leave one of them out",
                 ("rate",),
             )
-    row, axis = np.unravel_index(np.argmax(np.abs(force)), force.shape)
+    row, axis = divmod(int(np.argmax(np.abs(force))), force.shape[1])
     role = ("fx", "fy", "fz")[axis]
     if abs(force[row, axis]) > _STRONGEST:
         raise faulty(
@@ -86,7 +86,7 @@ def without_gaps(signal: Signal, gaps: Literal["refuse", "hold"]) -> tuple[Array
         return time, force
     usual = np.median(steps)
     if gaps == "refuse":
-        row = before[np.argmax(steps[before])]
+        row = int(before[np.argmax(steps[before])])
         raise signal.table.faulty(
             f"nothing for {steps[row]:.3g} s from {time[row]:g} s on (row "
             f"{signal.row(row)}, {len(before)} such gaps, rows are {usual:g} s apart); cut the "

@@ -11,11 +11,12 @@ from cowalk.sim.basics.frames import rotation
 from cowalk.sim.basics.lists import require_entries
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.validators import Range, require, require_range
-from cowalk.sim.sensor.wrench import TURN
 
 Triple = tuple[float, float, float]
 ZEROED: Range = (0.0, 3600.0, "s")
 """How long nobody pushed (inferred)."""
+ATTITUDE: Range = (-10.0, 10.0, "rad")
+"""More than a turn either way (inferred)."""
 LEVEL = 1e-9
 """Share of the third force below which a sensor counts as upright."""
 
@@ -49,7 +50,7 @@ class RecordingSensor:
         require_range("zero", self.zero, ZEROED)
         require_entries(self, ("signs",), 3, (-1.0, 1.0, ""))
         require(set(self.signs) <= {1, -1}, "signs", self.signs, "each must be 1 or -1")
-        require_entries(self, ("rpy",), 3, TURN)
+        require_entries(self, ("rpy",), 3, ATTITUDE)
 
 
 AS_THE_BASE = RecordingSensor()

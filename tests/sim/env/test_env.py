@@ -188,7 +188,7 @@ def test_an_action_that_is_not_finite_is_named(seat, bad):
 
 
 MALFORMED = [
-    *(None, 3.0, "ab", b"ab", True, {}, {"v": 1.0, "omega": 0.0}, object(), range(3)),
+    *(None, 3.0, "ab", b"ab", True, {}, {"v": 1.0, "omega": 0.0}, object, range(3)),
     *([], [1.0], [1.0, 2.0, 3.0], [[1.0, 2.0]], [[1.0], [2.0]], [[1.0], 2.0], np.zeros((2, 1))),
     *(["1", "2"], [None, 1.0], [1.0, 2.0j], [True, False], np.array(["a", "b"])),
     *(np.array([1.0, 2.0], dtype=object), np.zeros((2, 5)), np.array(1.0)),
