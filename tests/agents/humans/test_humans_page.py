@@ -27,6 +27,9 @@ def test_every_model_is_explained():
 def test_examples_load_as_printed(example, tmp_path, stand_in_recording, monkeypatch):
     monkeypatch.chdir(tmp_path)
     shutil.copy(stand_in_recording, "recording.csv")
+    force = ",".join(f"/wrench/force/{axis}" for axis in "xyz")
+    rows = "".join(f"/wrench,{n % 7},{n % 5},-9.5\n/velocity,0.8,0,0\n" for n in range(900))
+    Path("log.csv").write_text(f"topic,{force}\n{rows}", encoding="utf-8")
     scenario = yaml.safe_load(find("puddle").read_text(encoding="utf-8"))
     file = tmp_path / "example.scenario.yaml"
     file.write_text(yaml.safe_dump(scenario | example), encoding="utf-8")

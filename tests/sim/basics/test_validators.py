@@ -120,6 +120,7 @@ OTHERWISE = {
     float: ("tall", True, [1.0], {}, math.nan),
     str: (3, [], True),
     tuple: (3.0, "abc", (1.0,), (1.0, "a", 2.0), (1.0, True), [[1.0], [2.0], [3.0]]),
+    dict: (3, [], "a", True, None, {"a": "b"}, {3: 1.0}),
     type(None): ([1.0], {}, True),
 }
 """What is wrong for a value of each kind."""
@@ -132,7 +133,7 @@ def test_a_value_of_another_kind_is_refused_with_its_name(kind):
         for value in OTHERWISE[type(getattr(usual, item.name))]:
             if kind is SensorParameters and value == [1.0]:
                 continue  # the wrong number of a list that may be given: see test_sensor
-            with pytest.raises(InputError, match=rf"^(rates\.)?{item.name} ") as refused:
+            with pytest.raises(InputError, match=rf"^(rates\.)?{item.name}[ .]") as refused:
                 kind(**{item.name: value})
             assert "\n" not in str(refused.value)
 
