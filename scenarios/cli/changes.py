@@ -61,7 +61,7 @@ def changing(command: Callable[..., int], **usual: str) -> Callable[..., int]:
 
     def called(assign: list[str] | None, seed: int | None, **given: Any) -> int:
         names = [(f"--{part.flag}", ".".join(part.section), given.pop(part.key)) for part in swaps]
-        names = [each for each in names if each[2]]
+        names = [each for each in names if each[2] is not None]
         names += [] if seed is None else [("--seed", "seed", seed)]
         changes = Changes(names, assign or [])
         return command(changes=changes, **given)
@@ -70,7 +70,7 @@ def changing(command: Callable[..., int], **usual: str) -> Callable[..., int]:
     parameters: list[inspect.Parameter] = []
     for parameter in signature.parameters.values():
         if parameter.name == "changes":
-            parameters += [_option(part, usual.get(part.key, "")) for part in swaps]
+            parameters += [_option(part, usual.get(part.key)) for part in swaps]
             parameters += [_keyword("assign", _SET, None), _keyword("seed", _SEED, None)]
         else:
             parameters.append(parameter.replace(kind=inspect.Parameter.KEYWORD_ONLY))
@@ -87,10 +87,12 @@ _SET = Annotated[
 _SEED = Annotated[int | None, typer.Option("--seed", help="Seed instead of the scenario's.")]
 
 
-def _option(part: Part, usual: str) -> inspect.Parameter:
+def _option(part: Part, usual: str | None) -> inspect.Parameter:
     what = "a name" if part.preset else "name or module:Class"
     text = f"{part.kind.capitalize()} instead of the scenario's: {what}."
-    return _keyword(part.key, Annotated[str, typer.Option(f"--{part.flag}", help=text)], usual)
+    return _keyword(
+        part.key, Annotated[str | None, typer.Option(f"--{part.flag}", help=text)], usual
+    )
 
 
 def _keyword(name: str, annotation: Any, default: Any) -> inspect.Parameter:
@@ -152,11 +154,18 @@ def _refuse_contradictions(changes: Changes) -> None:
     from cowalk.sim.basics.errors import InputError
 
     from ..files.overrides import parsed
+    from ..files.parts import parts
 
     said: dict[tuple[str | int, ...], tuple[str, str | int]] = {
         tuple(key.split(".")): (f"{name} {value}", value) for name, key, value in changes.names
     }
+    named: dict[tuple[str | int, ...], str] = {
+        part.section: part.named_by for part in parts() if part.section in said
+    }
+    said |= {(*section, name): said[section] for section, name in named.items()}
     for number, (written, assignment) in enumerate(changes):
         steps, _, value = parsed(assignment, number)
-        if steps in said and not isinstance(value, dict) and value != said[steps][1]:
+        if steps in named and isinstance(value, dict):
+            steps, value = (*steps, named[steps]), value.get(named[steps], said[steps][1])
+        if steps in said and value != said[steps][1]:
             raise InputError(f"{said[steps][0]} and {written} contradict each other: give one")

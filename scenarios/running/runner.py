@@ -116,13 +116,15 @@ class _Episode:
         scenario = self._scenario
         try:
             self._walk()
-        except InputError:
-            raise
+        except InputError as failure:
+            if not len(self.recorder.trace):
+                raise
+            return "aborted", self._blamed(failure)
         except SimulationError as failure:
             return "aborted", f"{scenario.name}: {failure}"
         except KeyboardInterrupt:
             return "interrupted", f"{scenario.name}: interrupted by the user"
-        except (Exception, SystemExit) as failure:  # a user's class may raise anything
+        except BaseException as failure:  # a user's class may raise anything
             return "aborted", self._blamed(failure)
         last = self._infos["human"]
         reasons = [why for why in ("goal", "collision") if last[why]]

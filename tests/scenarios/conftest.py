@@ -39,6 +39,21 @@ class TurnsToNan(Quiet):
         return np.full(2, np.nan if observation["time"][0] > 1.0 else 0.0)
 
 
+class Refuses(Quiet):
+    def act(self, observation):
+        if observation["time"][0] > 1.0:
+            from cowalk.sim import InputError
+            raise InputError("no more")
+        return np.zeros(2)
+
+
+class Leaves(Quiet):
+    def act(self, observation):
+        if observation["time"][0] > 1.0:
+            raise GeneratorExit("gone")
+        return np.zeros(2)
+
+
 class Interrupted(Quiet):
     def act(self, observation):
         if observation["time"][0] > 1.0:

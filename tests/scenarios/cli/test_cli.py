@@ -260,7 +260,13 @@ def test_a_folder_that_cannot_be_written_is_refused_before_the_run(
 
 
 @pytest.mark.parametrize(
-    ("human", "words"), [("TurnsToNan", "nan"), ("Interrupted", "interrupted")]
+    ("human", "words"),
+    [
+        ("TurnsToNan", "nan"),
+        ("Interrupted", "interrupted"),
+        ("Refuses", "human 'my_models:Refuses' failed at t = 1.05 s: InputError: no more"),
+        ("Leaves", "human 'my_models:Leaves' failed at t = 1.05 s: GeneratorExit: gone"),
+    ],
 )
 def test_a_run_that_dies_keeps_its_trace_so_far(refused, scenario_file, folder, human, words):
     message = refused("run", scenario_file(), "--human", f"my_models:{human}", "--out", "kept")

@@ -229,6 +229,10 @@ def test_a_swap_says_what_it_drops(cowalk):
 def test_two_options_that_contradict_each_other_are_refused(cowalk):
     for options, words in (
         (("--seed", 3, "--set", "seed=4"), "--seed 3 and --set seed=4 contradict each other"),
+        (("--human", "steady", "--set", "human.name=game"), "human.name=game contradict"),
+        (("--human", "steady", "--set", "human={name: game}"), "{name: game} contradict"),
+        (("--sensor", "low-cost", "--set", "sensor.preset=none"), "sensor.preset=none contradict"),
+        (("--human", ""), "unknown human ''"),
         (("--human", "steady", "--set", "human=game"), "--human steady and --set human=game"),
     ):
         code, _, err = cowalk("run", "puddle", *options)
