@@ -189,5 +189,5 @@ def _settled_panel(axis: Axes, words: Axes, human: Human) -> dict[str, list[floa
     return meeting
 
 
-def _settled_share(human: Human, i: int, concession: float) -> float:
-    return float(settled_stubbornness(human, np.array([concession]))[0, i])
+def _settled_share(human: Human, i: int, concessions: Array) -> Array:
+    return np.asarray(settled_stubbornness(human, concessions)[:, i])

@@ -80,40 +80,49 @@ def answer(
         Seed of the human's generator.
     """
     steps = round(duration / SITUATION.period)
-    found = list(islice(_steps(human, concession, held, seed), steps))
+    found = list(islice(_steps(human, np.asarray(concession), held, seed), steps))
     force, stubbornness, _ = (np.array(values) for values in zip(*found, strict=True))
     return Answer(SITUATION.period * np.arange(steps, dtype=float), force, stubbornness)
 
 
 def _steps(
-    human: Human, concession: float, held: bool, seed: int
+    human: Human, concession: Array, held: bool, seed: int
 ) -> Iterator[tuple[Array, Array, Array]]:
-    """Yield force, stubbornness and disagreement, a share of the upper bounds, of each step."""
+    """Yield force, stubbornness and disagreement, a share of the upper bounds, of each step.
+
+    Of one human for a concession of shape (), of a batch for one of shape (lanes,).
+    """
+    lanes, share = concession.shape, concession[..., None]
     human.reset(np.random.default_rng(seed), SITUATION)
     lower, upper = (np.asarray(b) for b in (SITUATION.bounds.lower, SITUATION.bounds.upper))
     follow = -np.expm1(-SITUATION.period / RESPONSE)
-    pose, twist, felt, time = np.array([0.0, OFFSET, 0.0]), ROBOT, np.zeros(2), 0
+    pose, twist = np.zeros((*lanes, 3)), np.broadcast_to(ROBOT, (*lanes, 2))
+    pose[..., 1] = OFFSET
+    felt, time = np.zeros((*lanes, 2)), 0
+    torque = np.zeros((*lanes, 4))  # and the force's third component
     while True:
         felt = human.act(
             Observation(
                 twist=twist.copy(),
-                force=np.tile(felt, (SAMPLES, 1)),
-                wrench=np.tile((*felt, 0.0, 0.0, 0.0, 0.0), (SAMPLES, 1)),
-                force_valid=np.ones(SAMPLES),
+                force=np.repeat(felt[..., None, :], SAMPLES, axis=-2),
+                wrench=np.repeat(
+                    np.concatenate((felt, torque), axis=-1)[..., None, :], SAMPLES, -2
+                ),
+                force_valid=np.ones((*lanes, SAMPLES)),
                 pose=pose.copy(),
                 pose_world=pose.copy(),  # the path is the world's x axis
-                obstacles=np.zeros((OBSTACLE_ROWS, OBSTACLE_COLUMNS)),
-                time=np.array([SITUATION.period * time]),
+                obstacles=np.zeros((*lanes, OBSTACLE_ROWS, OBSTACLE_COLUMNS)),
+                time=np.full((*lanes, 1), SITUATION.period * time),
             )
         )
         truth = human.truth()
         yield felt, truth.stubbornness, np.abs(truth.wish - twist) / upper
         wish = np.clip(truth.wish, lower, upper)
-        twist = twist + follow * (ROBOT + concession * (wish - ROBOT) - twist)
+        twist = twist + follow * (ROBOT + share * (wish - ROBOT) - twist)
         pose = compose(pose, arc_displacement(twist, SITUATION.period))
         time += 1
         if held:
-            pose[1:] = OFFSET, 0.0
+            pose[..., 1:] = OFFSET, 0.0
 
 
 def settled_stubbornness(human: Human, concessions: Array, seeds: int = 3) -> Array:
@@ -136,22 +145,44 @@ def settled_stubbornness(human: Human, concessions: Array, seeds: int = 3) -> Ar
         In v and in omega, in [0, 1]; NaN where they have come to agree, and stubbornness has
         nothing to insist on.
     """
-    runs = range(seeds if draws(human) else 1)
-    return np.array([np.mean([_settle(human, c, k) for k in runs], axis=0) for c in concessions])
+    runs = seeds if draws(human) else 1
+    if _takes_lanes(human):
+        found = _settle(human, np.tile(concessions, runs), 0).reshape(runs, -1, 2)
+    else:
+        each = ((np.asarray(c), seed) for seed in range(runs) for c in concessions)
+        found = np.array([_settle(human, *one) for one in each]).reshape(runs, -1, 2)
+    return np.asarray(found.mean(axis=0))
 
 
-def _settle(human: Human, concession: float, seed: int) -> Array:
-    """Return the stubbornness that one held disagreement settles at, shape (2,)."""
-    steps = _steps(human, float(concession), True, seed)
-    size = round(BLOCK / SITUATION.period)
-    before = np.full(2, np.inf)
-    for block in range(1, round(MOST / BLOCK) + 1):
+def _takes_lanes(human: Human) -> bool:
+    """Return whether a batch of a human answers as one: a class of a user's need not say it."""
+    if not getattr(human, "broadcasts", True):
+        return False
+    try:
+        force, stubbornness, left = next(_steps(human, np.zeros(3), True, 0))
+    except Exception:  # such a class may fail at it in any way
+        return False
+    return force.shape == stubbornness.shape == left.shape == (3, 2)
+
+
+def _settle(human: Human, concession: Array, seed: int) -> Array:
+    """Return the stubbornness that held disagreements settle at, shape (..., 2)."""
+    steps = _steps(human, concession, True, seed)
+    size, blocks = round(BLOCK / SITUATION.period), round(MOST / BLOCK)
+    before = np.full((*concession.shape, 2), np.inf)
+    settled, open_still = before, np.ones(concession.shape, dtype=bool)
+    for block in range(1, blocks + 1):
         _, shares, left = (np.array(part) for part in zip(*islice(steps, size), strict=True))
-        settled = shares.mean(axis=0)
-        if block * BLOCK >= LEAST and np.abs(settled - before).max() < SAME:
+        mean = shares.mean(axis=0)
+        same = (block * BLOCK >= LEAST) & (np.abs(mean - before).max(axis=-1) < SAME)
+        ends = open_still & (same | (block == blocks))
+        value = np.where(left.mean(axis=0) < AGREED, np.nan, mean)
+        settled = np.where(ends[..., None], value, settled)
+        open_still = open_still & ~ends
+        if not open_still.any():
             break
-        before = settled
-    return np.where(left.mean(axis=0) < AGREED, np.nan, settled)
+        before = mean
+    return settled
 
 
 def draws(human: Human) -> bool:
@@ -162,7 +193,7 @@ def draws(human: Human) -> bool:
 
 
 def fixed_points(
-    concessions: Array, stubbornness: Array, settle: Callable[[float], float]
+    concessions: Array, stubbornness: Array, settle: Callable[[Array], Array]
 ) -> tuple[list[float], list[float]]:
     """Return where settled stubbornness equals the concession, and where it jumps past it.
 
@@ -175,7 +206,7 @@ def fixed_points(
     concessions, stubbornness : ndarray, shape (n,)
         Rising; in [0, 1], NaN where there is none.
     settle : callable
-        Settled stubbornness at a concession between them.
+        Settled stubbornness, shape (m,), at concessions between them; called once at most.
 
     Returns
     -------
@@ -185,14 +216,21 @@ def fixed_points(
     above = stubbornness - concessions
     points = [float(c) for c, gap in zip(concessions, above, strict=True) if gap == 0.0]
     jumps: list[float] = []
-    for i in np.flatnonzero(above[:-1] * above[1:] < 0.0):
-        ends = [float(concessions[i]), float(concessions[i + 1])]
-        gaps = [float(above[i]), float(above[i + 1])]
-        for _ in range(HALVINGS):
-            middle = sum(ends) / 2.0
-            gap = settle(middle) - middle
-            side = 0 if gap * gaps[0] > 0.0 else 1
-            ends[side], gaps[side] = middle, gap
+    crossed = np.flatnonzero(above[:-1] * above[1:] < 0.0)
+    if not len(crossed):
+        return sorted(points), jumps
+    # All that halving may ask for, in one batch: that takes no longer than two or three alone.
+    fine = np.linspace(concessions[crossed], concessions[crossed + 1], 2**HALVINGS + 1, axis=-1)
+    inside = fine[:, 1:-1]
+    between = settle(inside.ravel()).reshape(inside.shape) - inside
+    for i, places, middle in zip(crossed, fine, between, strict=True):
+        row = [above[i], *middle, above[i + 1]]
+        low, high = 0, 2**HALVINGS
+        while high - low > 1:
+            half = (low + high) // 2
+            low, high = (half, high) if row[half] * row[low] > 0.0 else (low, half)
+        ends = [float(places[low]), float(places[high])]
+        gaps = [float(row[low]), float(row[high])]
         share = gaps[0] / (gaps[0] - gaps[1])
         met = ends[0] + share * (ends[1] - ends[0])
         (jumps if abs(gaps[0] - gaps[1]) > JUMP else points).append(met)

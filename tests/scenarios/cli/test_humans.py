@@ -156,7 +156,7 @@ CONCESSIONS = np.linspace(0.0, 1.0, 11)
 )
 def test_fixed_points_are_where_the_curves_meet_not_where_one_jumps(curve, points, jumps):
     values = np.array([curve(c) for c in CONCESSIONS], dtype=float)
-    found, jumped = fixed_points(CONCESSIONS, values, curve)
+    found, jumped = fixed_points(CONCESSIONS, values, np.vectorize(curve, otypes=[float]))
     assert found == pytest.approx(points, abs=1e-3)
     assert jumped == pytest.approx(jumps, abs=1e-3)
 
@@ -176,6 +176,30 @@ def test_settled_stubbornness_is_what_the_page_says():
     # B v_ub/(gain F_max) = 1.2, cut to 1; in omega the wish lies beyond the bound.
     np.testing.assert_allclose(settled("impedance", 0.1, 0.9), 1.0)
     np.testing.assert_allclose(settled("crossover", 0.1, 0.9), 0.75)
+
+
+class OneAtATime:
+    """A human of a user's, who answers for one without saying so."""
+
+    def __init__(self, human):
+        self.human = human
+
+    def reset(self, rng, situation):
+        self.human.reset(rng, situation)
+
+    def act(self, observation):
+        force = self.human.act(observation)
+        return force if force.ndim == 1 else force[0]
+
+    def truth(self):
+        return self.human.truth()
+
+
+@pytest.mark.parametrize("name", ["escalating", "game", "tit-for-tat", "crossover"])
+def test_a_batch_settles_where_each_human_alone_does(name):
+    human, concessions = built(name), np.array([0.0, 0.35, 1.0])
+    alone = settled_stubbornness(OneAtATime(human), concessions)
+    np.testing.assert_allclose(settled_stubbornness(human, concessions), alone, rtol=1e-12)
 
 
 @pytest.mark.parametrize("name", ["steady", "conceding", "tit-for-tat", "escalating"])
