@@ -154,7 +154,6 @@ def _refuse_contradictions(changes: Changes) -> None:
     from cowalk.sim.basics.errors import InputError
 
     from ..files.overrides import parsed
-    from ..files.parts import parts
 
     said: dict[tuple[str | int, ...], tuple[str, str | int]] = {
         tuple(key.split(".")): (f"{name} {value}", value) for name, key, value in changes.names
