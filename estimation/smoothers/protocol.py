@@ -1,4 +1,4 @@
-"""Smoothers of a signal sampled once a negotiation, behind one protocol and a registry."""
+"""The protocol of a smoother: one value a negotiation, smoothed."""
 
 from __future__ import annotations
 

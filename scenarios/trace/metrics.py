@@ -25,7 +25,7 @@ def metrics(
     Parameters
     ----------
     columns : mapping of str to ndarray, shape (rows,)
-        Trace columns (`cowalk.scenarios.trace.trace.UNITS`), at least one row.
+        Trace columns (`cowalk.scenarios.trace.columns.UNITS`), at least one row.
     period : float
         Control period, s.
     path : Path
