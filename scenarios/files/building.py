@@ -26,8 +26,14 @@ _OPEN = inspect.Parameter.VAR_KEYWORD
 _KEYWORDS = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
 
 
-def build(registry: Registry[T], component: Component, at: KeyPath, **shared: Any) -> T:
-    """Return the object that a component names.
+def attempt(
+    registry: Registry[T],
+    component: Component,
+    at: KeyPath,
+    shared: Mapping[str, Any],
+    elsewhere: Mapping[str, str],
+) -> T | Fault:
+    """Return the object that a component names, or the first problem.
 
     Parameters
     ----------
@@ -37,41 +43,13 @@ def build(registry: Registry[T], component: Component, at: KeyPath, **shared: An
         Name and parameters.
     at : tuple of str and int
         Section of the scenario that holds the component, for messages.
-    **shared
-        Arguments that come from elsewhere in the scenario (``rates``, ``smoother``, ...); the
-        constructor gets those it has a parameter for.
-
-    Raises
-    ------
-    InputError
-        If the name or a parameter is not right; the first fault, in one line.
-    """
-    found = attempt(registry, component, at, shared)
-    if isinstance(found, Fault):
-        raise found.error()
-    return found
-
-
-def attempt(
-    registry: Registry[T],
-    component: Component,
-    at: KeyPath,
-    shared: Mapping[str, Any],
-    elsewhere: Mapping[str, str] | None = None,
-) -> T | Fault:
-    """Return the object that a component names, or the first problem (see `build`).
-
-    Parameters
-    ----------
-    registry, component, at
-        See `build`.
     shared : mapping
-        Arguments that come from elsewhere, by their names.
-    elsewhere : mapping, optional
-        See `check_parameters`; the names of ``shared`` themselves unless given.
+        Arguments that come from elsewhere in the scenario (``rates``, ``smoother``, ...), by
+        their names; the constructor gets those it has a parameter for.
+    elsewhere : mapping of str to str
+        See `check_parameters`.
     """
-    places = {name: name for name in shared} if elsewhere is None else elsewhere
-    constructor, parameters, problems = _prepare(registry, component, at, places)
+    constructor, parameters, problems = _prepare(registry, component, at, elsewhere)
     if problems or constructor is None:
         return problems[0]
     accepted = {name: value for name, value in shared.items() if name in _accepted(constructor)}
@@ -89,7 +67,7 @@ def check_parameters(
     Parameters
     ----------
     registry, component, at
-        See `build`.
+        See `attempt`.
     elsewhere : mapping of str to str
         Arguments that come from elsewhere: where in the scenario each is set, empty if nowhere.
     """

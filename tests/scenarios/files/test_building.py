@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from numpy.typing import ArrayLike
 
-from cowalk.scenarios.files.building import build, check_parameters, complete
+from cowalk.scenarios.files.building import attempt, check_parameters, complete
+from cowalk.scenarios.files.documents import Fault
 from cowalk.scenarios.files.schema import Component
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.registry import Registry, part
@@ -74,6 +75,13 @@ WALKERS = Registry(
 
 def component(name="walker", **parameters):
     return Component(name=name, parameters=parameters)
+
+
+def build(registry, component, at, **shared):
+    made = attempt(registry, component, at, shared, {name: name for name in shared})
+    if isinstance(made, Fault):
+        raise made.error()
+    return made
 
 
 def refusal(name="walker", shared=None, **parameters):
