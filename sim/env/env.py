@@ -178,19 +178,17 @@ class CowalkEnv(WatchedEnv):
         if seed is not None:
             self._generator = np.random.default_rng(seed)
         plant_rng, sensor_rng = self._generator.spawn(2)
-        self.agents = list(SEATS)
+        self.agents, self._started = [], False  # until nothing can be refused any more
         self._step_count = 0
         self._terms = NO_TERMS
-        self._started = True
         state = self._state = self._plant.reset(self.world, plant_rng)
         self._sensor.reset(sensor_rng, state.wrench_on_base[-1], state.mount)
         self._reading = self._sensor.measure(state.wrench_on_base, state.mount)
         clearance, touching = self._distances(self._time, *state.poses)
         if touching:
             plant = self._plant
-            why = blocked_start(self.world, plant.bodies, state.poses, plant.distances)
-            self.agents, self._started = [], False
-            raise InputError(why)
+            raise InputError(blocked_start(self.world, plant.bodies, state.poses, plant.distances))
+        self.agents, self._started = list(SEATS), True
         self._relative = self.world.path.relative(*state.pose)
         self._info = {"clearance": clearance} | dict.fromkeys(_ENDS, False)
         return self._observations(), {seat: dict(self._info) for seat in SEATS}

@@ -365,3 +365,14 @@ def test_a_blocked_start_is_refused_each_time_and_leaves_no_episode(plant):
         with pytest.raises(SimulationError, match="call reset before save"):
             env.save()
     env.close()
+
+
+def test_a_load_beyond_the_sensors_range_leaves_no_episode():
+    parameters = {"drive": {"kind": "wheels"}, "coupling": {"kind": "stretcher"}}
+    env = parallel_env(sensor=SensorParameters(range=10.0), plant_parameters=parameters)
+    with pytest.raises(InputError, match="clamped on at rest"):
+        env.reset(seed=0)
+    assert env.agents == []
+    with pytest.raises(SimulationError, match="call reset before plant_state"):
+        _ = env.plant_state
+    env.close()
