@@ -111,9 +111,6 @@ def _prepare(
         constructor = registry.get(component.name)
     except InputError as error:
         return None, {}, [Fault(named, f"{dotted(named)}: {error}")]
-    except Exception as error:  # a user's module may raise anything when imported
-        reason = f"importing it failed with {type(error).__name__}: {error}"
-        return None, {}, [Fault(named, f"{dotted(named)} = {component.name!r}: {reason}")]
     place: KeyPath = (*at, "parameters")
     problems = [
         Fault((*place, name), f"{dotted((*place, name))}: {_elsewhere(elsewhere[name])}")

@@ -43,9 +43,6 @@ def judge_own_part(address: str) -> OwnPart:
         found = import_address(address)
     except InputError as error:
         raise InputError(f"{address!r} {error}") from error
-    except Exception as error:  # a user's module may raise anything when imported
-        what = f"importing it failed with {type(error).__name__}: {error}"
-        raise InputError(f"{address!r}: {what}") from error
     part = kind_of(found)
     if part is None:
         kinds = "; ".join(f"{part.kind}: {', '.join(_registry(part).calls)}" for part in _classes())

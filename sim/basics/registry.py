@@ -88,6 +88,8 @@ def import_address(address: str) -> Any:
         raise InputError(f"cannot be imported: {error}") from error
     except SystemExit as error:  # a script, not a module: it must not end the command
         raise InputError("cannot be imported: importing it ends the program") from error
+    except Exception as error:  # a user's module may raise anything
+        raise InputError(f"cannot be imported: {type(error).__name__}: {error}") from error
     return found
 
 

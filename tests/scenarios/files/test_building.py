@@ -145,7 +145,7 @@ def test_unknown_names_are_refused_with_what_there_is():
 def test_a_module_that_fails_when_imported_is_named(tmp_path, monkeypatch):
     (tmp_path / "failing_module.py").write_text("1 / 0\n")
     monkeypatch.syspath_prepend(tmp_path)
-    words = "robot.name = 'failing_module:A': importing it failed with ZeroDivisionError"
+    words = "robot.name: walker 'failing_module:A' cannot be imported: ZeroDivisionError"
     assert words in refusal("failing_module:A")
 
 

@@ -2,6 +2,7 @@ import pytest
 
 from cowalk.agents import AUTOMATIONS, HUMANS
 from cowalk.sim.basics.errors import InputError
+from cowalk.sim.basics.registry import Registry
 from cowalk.sim.plant.registry import PLANTS
 
 MODULE = """
@@ -42,6 +43,14 @@ def test_a_module_that_ends_the_program_is_refused(tmp_path):
     (tmp_path / "script_of_mine.py").write_text("import sys\nsys.exit(0)\n")
     with pytest.raises(InputError, match="importing it ends the program"):
         HUMANS.get("script_of_mine:Human")
+
+
+def test_a_module_that_fails_when_imported_is_refused_and_described(tmp_path):
+    (tmp_path / "failing_part.py").write_text("1 / 0\n")
+    parts = Registry("human", {"failing": "failing_part:Human"})
+    with pytest.raises(InputError, match="cannot be imported: ZeroDivisionError"):
+        parts.get("failing")
+    assert "cannot be imported: ZeroDivisionError" in parts.describe("failing")
 
 
 def test_every_registered_name_can_be_imported():
