@@ -12,7 +12,7 @@ from cowalk.sim.basics.motion import Array
 
 from ..files.schema import Scenario
 from ..result import RunResult
-from .side_by_side import Progress, measure_each
+from .side_by_side import Progress, measure_each, numbers_of
 
 
 @dataclass(frozen=True)
@@ -78,6 +78,4 @@ def _score(name: str, numbers: dict[str, Array]) -> AgentScore:
 
 def _fared(result: RunResult) -> dict[str, float]:
     """Return the metrics of one run, and whether it ended at the goal."""
-    values = {name: found["value"] for name, found in result.summary["metrics"].items()}
-    values = {name: math.nan if value is None else value for name, value in values.items()}
-    return values | {"goal": float(result.summary["end"] == "goal")}
+    return numbers_of(result) | {"goal": float(result.summary["end"] == "goal")}

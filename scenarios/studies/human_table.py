@@ -20,6 +20,7 @@ from cowalk.sim.world.world import World
 
 from ..files.schema import Component, Scenario, with_named
 from ..running.runner import run
+from .side_by_side import numbers_of
 
 AUTOMATIONS_COMPARED = ("never-yields", "always-yields", "stubbornness")
 """The two ends of the scale, and the paper's automation."""
@@ -163,8 +164,7 @@ def _measure(
     )
     if result.error is not None:
         raise InputError(f"human {human!r}, automation {automation!r}, seed {seed}: {result.error}")
-    values = {name: found["value"] for name, found in result.summary["metrics"].items()}
-    values = {name: math.nan if value is None else value for name, value in values.items()}
+    values = numbers_of(result)
     way = values["distance walked"]
     values["effort a metre"] = values["effort"] / way if way > 0.0 else math.nan
     return tuple(values[name] for name in METRICS), result.summary["end"]

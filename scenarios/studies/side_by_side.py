@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -79,6 +80,12 @@ def measure_each(
         name: {key: np.array([values[key] for values in runs]) for key in runs[0]}
         for name, runs in found.items()
     }
+
+
+def numbers_of(result: RunResult) -> dict[str, float]:
+    """Return the metrics of a run by name; NaN where one does not apply."""
+    values = {name: found["value"] for name, found in result.summary["metrics"].items()}
+    return {name: math.nan if value is None else value for name, value in values.items()}
 
 
 def _names(part: Part, present: str, own: Sequence[str]) -> list[str]:
