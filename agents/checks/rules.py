@@ -7,10 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from cowalk.estimation.checks.rules import Broken, brief, extra_faults, require_array
+from cowalk.estimation.checks.rules import Broken, extra_faults, require_array
 from cowalk.estimation.checks.stream import BOUNDS
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
+from cowalk.sim.basics.validators import shown
 
 from ..basics.protocols import Belief, Truth
 
@@ -81,7 +82,7 @@ def truth_faults(truth: Any) -> Iterator[str]:
     """Yield what is wrong with a `Truth`."""
     if not isinstance(truth, Truth):
         cure = "return Truth(wish=np.array([v, omega]), stubbornness=np.array([s_v, s_omega]))"
-        raise Broken(f"truth returned {brief(truth)}: {cure}")
+        raise Broken(f"truth returned {shown(truth)}: {cure}")
     for name in ("wish", "stubbornness"):
         value = getattr(truth, name)
         require_pair(f"truth().{name} is", value, _CURE)
@@ -109,14 +110,14 @@ def belief_faults(belief: Any, columns: Mapping[str, str]) -> Iterator[str]:
     """Yield what is wrong with a `Belief`, extras by the ``columns`` that are declared."""
     if not isinstance(belief, Belief):
         cure = "return Belief(), NaN where there is no opinion"
-        raise Broken(f"belief returned {brief(belief)}: {cure}")
+        raise Broken(f"belief returned {shown(belief)}: {cure}")
     for name in _PAIRS:
         require_pair(f"belief().{name} is", getattr(belief, name), _CURE)
     for name in (*_SCALARS, "negotiation"):
         value = np.asarray(getattr(belief, name))
         if value.ndim or value.dtype.kind not in "fiu":
             cure = "return one number" + ("" if name == "negotiation" else ", NaN for no opinion")
-            raise Broken(f"belief().{name} is {brief(getattr(belief, name))}: {cure}")
+            raise Broken(f"belief().{name} is {shown(getattr(belief, name))}: {cure}")
     for name, (low, high) in _WITHIN.items():
         value = np.asarray(getattr(belief, name))
         if ((value < low - 1e-9) | (value > high + 1e-9)).any():

@@ -9,12 +9,12 @@ import numpy as np
 
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.rates import Rates
+from cowalk.sim.basics.validators import shown
 
 from .rules import (
     RETURNED,
     Kept,
     attempt,
-    brief,
     is_number,
     problems_of,
     raise_problems,
@@ -107,7 +107,7 @@ def _signal_faults(part: Any, found: dict[str, None]) -> Iterator[str]:
     stated = attempt("delay fails after reset", getattr, part, "delay", None)
     if not is_number(stated) or not 0.0 <= float(stated) < np.inf:
         yield (
-            f"delay is {brief(stated)} after reset: state by how many s a slow signal comes "
+            f"delay is {shown(stated)} after reset: state by how many s a slow signal comes "
             "later, 0 or more"
         )
         return

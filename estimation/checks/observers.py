@@ -9,6 +9,7 @@ import numpy as np
 
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.rates import Rates
+from cowalk.sim.basics.validators import shown
 
 from ..observers.protocol import Estimate
 from .rules import (
@@ -16,7 +17,6 @@ from .rules import (
     Broken,
     Kept,
     attempt,
-    brief,
     column_faults,
     extra_faults,
     generator_faults,
@@ -134,7 +134,7 @@ _PAIRS = ("stubbornness", "wish", "stubbornness_deviation", "wish_deviation")
 def _estimate_faults(estimate: Any, columns: Mapping[str, str]) -> Iterator[str]:
     """Yield what is wrong with an estimate."""
     if not isinstance(estimate, Estimate):
-        raise Broken(f"update returned {brief(estimate)}: {_CURE}")
+        raise Broken(f"update returned {shown(estimate)}: {_CURE}")
     for name in _PAIRS:
         require_array(f"Estimate.{name} is", getattr(estimate, name), (2,), _PAIR)
     share, wish = estimate.stubbornness, estimate.wish
@@ -170,7 +170,7 @@ def _require_posterior(posterior: Any) -> None:
             )
         pair = attempt(f"posterior.{name} fails", getattr(posterior, name), *arguments)
         if not isinstance(pair, tuple) or len(pair) != 2:
-            raise Broken(f"posterior.{name} returned {brief(pair)}: return stubbornness and wish")
+            raise Broken(f"posterior.{name} returned {shown(pair)}: return stubbornness and wish")
         for value in pair:
             cure = f"return two arrays of shape {shape}, stubbornness and wish"
             require_array(f"posterior.{name} returned", value, shape, cure)

@@ -14,6 +14,7 @@ import numpy as np
 from cowalk.sim.basics.errors import InputError, PartError
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.registry import marked_kind
+from cowalk.sim.basics.validators import shown
 
 Methods = Mapping[str, tuple[tuple[str, ...], str]]
 """Methods of a kind of part: the arguments they are called with, and how each is declared."""
@@ -75,12 +76,6 @@ def one_line(error: BaseException) -> str:
     return f"{type(error).__name__}: {' '.join(str(error).split())}".rstrip(": ")
 
 
-def brief(value: Any) -> str:
-    """Return a value as text in one line, cut where it is long."""
-    text = " ".join(repr(value).split())
-    return text if len(text) <= 60 else f"{text[:57]}..."
-
-
 def call_faults(part: Any, methods: Methods) -> Iterator[str]:
     """Yield which methods are missing, or cannot be called as a run calls them."""
     for name, (arguments, how) in methods.items():
@@ -138,7 +133,7 @@ def require_array(what: str, value: Any, shape: tuple[int, ...], cure: str) -> N
         What to return instead.
     """
     if not isinstance(value, np.ndarray):
-        raise Broken(f"{what} {brief(value)}, no NumPy array: {cure}")
+        raise Broken(f"{what} {shown(value)}, no NumPy array: {cure}")
     if value.shape != shape:
         raise Broken(f"{what} an array of shape {value.shape}: {cure}")
     if value.dtype.kind not in "fiu":
@@ -242,7 +237,7 @@ def _global_state() -> Iterator[Callable[[], bool]]:
 def column_faults(columns: Any) -> Iterator[str]:
     """Yield what is wrong with the ``columns`` of a part; raise `Broken` if it is no mapping."""
     if not isinstance(columns, Mapping):
-        raise Broken(f"columns is {brief(columns)}: give units by name, {{'urgency': '1'}}")
+        raise Broken(f"columns is {shown(columns)}: give units by name, {{'urgency': '1'}}")
     for name, unit in columns.items():
         if not (isinstance(name, str) and name and isinstance(unit, str)):
             yield f"columns has {name!r}: {unit!r}; give a name and its unit, {{'urgency': '1'}}"
@@ -257,13 +252,13 @@ def extra_faults(what: str, extras: Any, columns: Mapping[str, str]) -> Iterator
         If they are no numbers by name.
     """
     if not isinstance(extras, Mapping):
-        raise Broken(f"{what} is {brief(extras)}: give a number by name, {{'urgency': 0.5}}")
+        raise Broken(f"{what} is {shown(extras)}: give a number by name, {{'urgency': 0.5}}")
     for name, value in extras.items():
         if name not in columns:
             declared = ", ".join(columns) or "nothing"
             yield f"{what} has {name!r}, columns declares {declared}: add it there with its unit"
         if not is_number(value):
-            raise Broken(f"{what}[{name!r}] is {brief(value)}: give one number")
+            raise Broken(f"{what}[{name!r}] is {shown(value)}: give one number")
 
 
 def is_number(value: Any) -> bool:

@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 
 from cowalk.sim.basics.motion import Array
+from cowalk.sim.basics.validators import shown
 
 from .rules import (
     RETURNED,
     Broken,
     Kept,
     attempt,
-    brief,
     is_number,
     problems_of,
     raise_problems,
@@ -115,7 +115,7 @@ def _smoothed(part: Any, initial: Array, values: list[Array], found: dict[str, N
         if given.ndim:
             require_array("update returned", smoothed, given.shape, _CURE)
         elif not is_number(smoothed):
-            raise Broken(f"update returned {brief(smoothed)} for one number: {_CURE}")
+            raise Broken(f"update returned {shown(smoothed)} for one number: {_CURE}")
         if isinstance(smoothed, np.ndarray) and smoothed is not given:
             kept.keep(f"update {RETURNED}", smoothed)
         out.append(np.array(smoothed, dtype=float))
