@@ -37,7 +37,7 @@ def metrics(
         ``{"value": ..., "unit": ...}`` by name; NaN where a metric does not apply.
     """
     force = np.hypot(columns["fx"], columns["fy"])
-    # The handle rides on the base: sideways, force does no work on a base that does not slip.
+    # Of the measured push alone: the column `work` has what turning and slipping add.
     power = columns["fx"] * columns["v"]
     truth, estimate = columns["true_stubbornness_omega"], columns["est_stubbornness_omega"]
     smoothed = columns["smoothed_stubbornness_omega"]
