@@ -27,6 +27,8 @@ from .rules import (
 )
 from .stream import BOUNDS, reading, samples, situation
 
+_PAIRS = ("stubbornness", "wish", "stubbornness_deviation", "wish_deviation")
+"""Arrays of an estimate, in the order in which `_heard` lists them."""
 _PAIR = "return np.array([a, b]), one number for v, one for omega"
 _CURE = "return Estimate(stubbornness=np.array([s_v, s_omega]), wish=np.array([v, omega]))"
 _METHODS = {
@@ -126,9 +128,6 @@ def _heard(part: Any, rates: Rates, push: float, found: dict[str, None]) -> Arra
         _require_posterior(estimate.posterior)
     found |= dict.fromkeys(kept.faults())
     return np.array(out)
-
-
-_PAIRS = ("stubbornness", "wish", "stubbornness_deviation", "wish_deviation")
 
 
 def _estimate_faults(estimate: Any, columns: Mapping[str, str]) -> Iterator[str]:
