@@ -10,6 +10,7 @@ import numpy as np
 
 from cowalk.agents.basics.protocols import Belief, Truth
 from cowalk.sim.basics.errors import PartError
+from cowalk.sim.basics.validators import said
 
 _FORCE = "the force [fx, fy] in N"
 _TWIST = "the twist [v, omega] in m/s and rad/s"
@@ -46,7 +47,7 @@ def require_truth(human: object, truth: Any) -> None:
         If it is no `Truth`, or one of its arrays is not two finite numbers.
     """
     if not isinstance(truth, Truth):
-        raise PartError(human, f"truth() gave {truth!r}; it must be a Truth")
+        raise PartError(human, f"truth() gave {said(truth)}; it must be a Truth")
     _finite_pair(human, "truth", truth.stubbornness, "the stubbornness [v, omega]")
     _finite_pair(human, "truth", truth.wish, "the wish [v, omega] in m/s and rad/s")
 
@@ -61,22 +62,22 @@ def require_belief(automation: object, belief: Any, columns: Mapping[str, str]) 
         which ``columns`` says nothing.
     """
     if not isinstance(belief, Belief):
-        raise PartError(automation, f"belief() gave {belief!r}; it must be a Belief")
+        raise PartError(automation, f"belief() gave {said(belief)}; it must be a Belief")
     for name in _PAIRS:
         value = getattr(belief, name)
         if not isinstance(value, np.ndarray) or value.shape != (2,):
-            raise PartError(automation, f"belief().{name} is {_said(value)}; it must be {_PAIR}")
+            raise PartError(automation, f"belief().{name} is {said(value)}; it must be {_PAIR}")
     for name in _NUMBERS:
         value = getattr(belief, name)
         if not isinstance(value, float | int | np.number | np.ndarray) or np.ndim(value):
-            raise PartError(automation, f"belief().{name} is {_said(value)}; it must be one number")
+            raise PartError(automation, f"belief().{name} is {said(value)}; it must be one number")
     for name, value in belief.extras.items():
         if name not in columns:
             known = ", ".join(columns) or "nothing"
             raise PartError(automation, f"belief().extras has {name!r}; columns declares {known}")
         if not isinstance(value, float | int | np.number | np.ndarray) or np.ndim(value):
-            said = f"belief().extras has {name} = {_said(value)}"
-            raise PartError(automation, f"{said}; it must be one number")
+            found = f"belief().extras has {name} = {said(value)}"
+            raise PartError(automation, f"{found}; it must be one number")
 
 
 _PAIR = "a NumPy array of shape (2,)"
@@ -93,11 +94,7 @@ _NUMBERS = ("interaction", "interaction_smoothed", "utility_loss", "target_utili
 
 def _finite_pair(part: object, method: str, answer: Any, expected: str) -> None:
     if not isinstance(answer, np.ndarray) or answer.shape != (2,):
-        raise PartError(part, f"{method}() gave {_said(answer)}; it must be {expected}, {_PAIR}")
+        raise PartError(part, f"{method}() gave {said(answer)}; it must be {expected}, {_PAIR}")
     first, second = values = answer.tolist()
     if not (math.isfinite(first) and math.isfinite(second)):
         raise PartError(part, f"{method}() gave {values}; {expected} must be finite")
-
-
-def _said(value: Any) -> str:
-    return f"an array of shape {value.shape}" if hasattr(value, "shape") else repr(value)

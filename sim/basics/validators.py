@@ -33,6 +33,11 @@ def shown(value: Any) -> str:
     return text if len(text) <= 60 else f"{text[:57]}..."
 
 
+def said(value: Any) -> str:
+    """Return in a few words what a part answered: of an array its shape, else as `shown`."""
+    return f"an array of shape {value.shape}" if isinstance(value, np.ndarray) else shown(value)
+
+
 def is_number(value: Any) -> bool:
     """Return whether a value is a real number: true and false are none."""
     return isinstance(value, Real) and not isinstance(value, bool)

@@ -12,6 +12,7 @@ from cowalk.estimation.observers.protocol import Estimate, Observer
 from cowalk.estimation.smoothers.protocol import Smoother
 from cowalk.sim.basics.errors import PartError
 from cowalk.sim.basics.motion import Array
+from cowalk.sim.basics.validators import said
 
 Shape = tuple[int, ...]
 
@@ -79,11 +80,6 @@ def smoothed(smoother: Smoother, value: Array) -> Array:
     if not np.isfinite(result).all():
         raise PartError(smoother, f"update() gave {result}; it must be finite")
     return result
-
-
-def said(value: object) -> str:
-    """Return in a few words what was given."""
-    return f"an array of shape {value.shape}" if isinstance(value, np.ndarray) else repr(value)
 
 
 _PAIRS = {

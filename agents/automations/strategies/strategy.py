@@ -21,13 +21,13 @@ from cowalk.sim.basics.errors import PartError
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
 from cowalk.sim.basics.situation import Situation
-from cowalk.sim.basics.validators import require, require_instance, require_part
+from cowalk.sim.basics.validators import require, require_instance, require_part, said
 
 from ...basics.protocols import Belief
 from ..planner.problem import PROBLEMS
 from ..planner.settings import NegotiationSettings
 from .negotiation import Agreement, Negotiation
-from .part_output import require_block, require_estimate, said, smoothed
+from .part_output import require_block, require_estimate, smoothed
 
 
 class Strategy(ABC):
