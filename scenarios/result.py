@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from .files.schema import Scenario
 
 
-@dataclass
+@dataclass(repr=False)
 class RunResult:
     """What a run leaves behind.
 
@@ -53,6 +53,13 @@ class RunResult:
     def passed(self) -> bool:
         """Whether the run went through and every expectation held."""
         return self.error is None and all(verdict.passed for verdict in self.verdicts)
+
+    def __repr__(self) -> str:
+        """Return in one line what was run and how it went, not all that is kept of it."""
+        held = sum(verdict.passed for verdict in self.verdicts)
+        what = f"{self.scenario.name}, seed {self.scenario.seed}"
+        ended = f"aborted: {self.error}" if self.error else f"ended by {how_it_ended(self.summary)}"
+        return f"<RunResult {what}: {ended}, {held} of {len(self.verdicts)} expectations hold>"
 
     def _repr_png_(self) -> bytes | None:
         """Return the picture that notebooks show for a result."""

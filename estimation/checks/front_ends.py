@@ -125,9 +125,10 @@ def _signal_faults(part: Any, found: dict[str, None]) -> Iterator[str]:
     off = (later - float(stated) + turn / 2.0) % turn - turn / 2.0
     worst = int(np.argmax(np.abs(off)))
     if abs(off[worst]) > _USUAL.period:
+        comes = round(float(stated) + off[worst], 4) + 0.0  # no -1e-17, and no -0
         yield (
             f"delay says {float(stated):.3g} s, a signal of {SLOW:g} Hz in channel {worst} comes "
-            f"{float(stated) + off[worst]:.3g} s later: state that"
+            f"{comes:.3g} s later: state that"
         )
 
 

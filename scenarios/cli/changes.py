@@ -82,7 +82,11 @@ def changing(command: Callable[..., int], **usual: str) -> Callable[..., int]:
 
 _SET = Annotated[
     list[str] | None,
-    typer.Option("--set", metavar="KEY=VALUE", help="Set one value; may be repeated."),
+    typer.Option(
+        "--set",
+        metavar="KEY=VALUE",
+        help="Set one value, or merge a mapping (KEY:=VALUE replaces it); repeatable.",
+    ),
 ]
 _SEED = Annotated[int | None, typer.Option("--seed", help="Seed instead of the scenario's.")]
 

@@ -42,7 +42,7 @@ def check(
         ),
     ] = False,
 ) -> int:
-    """Report every fault of scenario files with its line, or of parts of your own."""
+    """Report every fault of scenario files, or of parts of your own."""
     from cowalk.sim.basics.errors import InputError
 
     from ..files.loading import faults, find
@@ -52,6 +52,10 @@ def check(
     for file in files:
         part = ":" in file and not Path(file).exists()
         kind = ""
+        if file.endswith(".py"):
+            complain(f"{file} is Python: give what to check in it, {Path(file).stem}:MyClass")
+            code = BAD_INPUT
+            continue
         try:
             if part:
                 kind, found = judge_own_part(file)

@@ -20,7 +20,7 @@ def register(app: typer.Typer) -> None:
 
     @humans.command("list")
     def list_humans(as_json: Json = False) -> int:
-        """List the human models; cowalk list also has imperfections and populations."""
+        """List the human models."""
         return list_parts(kind_of_part("human").plural, as_json)
 
     humans.command(
@@ -102,7 +102,7 @@ def _listed(values: Any) -> str:
 def show(
     name: Annotated[
         str,
-        typer.Argument(metavar="[NAME]", help="Model, or module:Class; none for --imperfection."),
+        typer.Argument(metavar="NAME", help="Model, or module:Class; none for --imperfection."),
     ] = "",
     imperfection: Annotated[
         list[str] | None,
@@ -117,7 +117,7 @@ def show(
     ] = None,
     as_json: Json = False,
 ) -> int:
-    """Draw what a human model does, or an imperfection alone on a prescribed push."""
+    """Draw what a human model does, or what an imperfection does."""
     from cowalk.sim.basics.errors import InputError
 
     from ..export.folder import writable_folder
@@ -163,7 +163,7 @@ def table(
     ] = None,
     as_json: Json = False,
 ) -> int:
-    """Compare every human with every automation, with 95 % bootstrap intervals."""
+    """Compare every human with every automation, with 95 % intervals."""
     from ..studies.human_table import (
         NOTE,
         compare_humans,

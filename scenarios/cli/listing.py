@@ -17,8 +17,7 @@ def register(app: typer.Typer) -> None:
     """Add this command to the command line."""
     command = app.command(
         name="list",
-        help="List scenarios, humans, automations, sensors and everything else that has a name: "
-        f"{', '.join(kinds())}.",
+        help=f"List everything that has a name. Kinds: {', '.join(kinds())}.",
         epilog="\b\nExamples:\n  cowalk list\n  cowalk list humans --json",
     )
     command(list_parts)
@@ -39,7 +38,7 @@ def _known(kind: str) -> str:
 
 def list_parts(
     kind: Annotated[
-        str, typer.Argument(metavar="[KIND]", help="One kind alone.", callback=_known)
+        str, typer.Argument(metavar="KIND", help="One kind alone.", callback=_known)
     ] = "",
     as_json: Json = False,
 ) -> int:

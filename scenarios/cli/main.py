@@ -208,7 +208,8 @@ def _one_line(error: Exception) -> str | None:
     # Typer brings its own copy of click or uses the installed one: no class to name for both.
     if hasattr(error, "format_message"):
         said = error.format_message().replace("Value error, ", "").rstrip(".")
-        return f"{said} (see cowalk --help)"
+        where = getattr(getattr(error, "ctx", None), "command_path", "cowalk")
+        return f"{said} (see {where} --help)"
     from cowalk.sim.basics.errors import InputError, SimulationError
 
     return str(error) if isinstance(error, InputError | SimulationError) else None

@@ -22,7 +22,7 @@ def register(app: typer.Typer) -> None:
     """Add this command to the command line."""
     command = app.command(
         name="new",
-        help=f"Write a start of your own to change; KIND is {', '.join(startable())}.",
+        help=f"Write a start of a part or scenario of your own. KIND is {', '.join(startable())}.",
         epilog=(
             "\b\nExamples:\n"
             "  cowalk new human hasty_human\n"

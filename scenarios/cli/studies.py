@@ -125,7 +125,7 @@ def _comparing(part: Part) -> Callable[..., int]:
             _records(f"{part.plural} in {loaded.name}", scores)
         return PASSED
 
-    compare.__doc__ = f"Run a scenario with every {part.kind}, your own as well, and score each."
+    compare.__doc__ = f"Score every {part.kind} in a scenario, your own as well."
     return compare
 
 

@@ -75,7 +75,7 @@ def explain(verdict: Verdict) -> str:
     if verdict.closest:
         values = (f"{name} = {value:.3g}" for name, value in verdict.closest.items())
         said += f" with {', '.join(values)}"
-    if verdict.violated_at is not None:
+    if verdict.violated_at is not None and verdict.reason is None:
         said += f", first violated at t = {verdict.violated_at:g} s"
     return said
 

@@ -112,7 +112,7 @@ def _footer(result: RunResult) -> list[str]:
         lines += textwrap.wrap(f"sensor: {faults}", LINE)
     for verdict in result.verdicts:
         why = verdict.reason or f"margin {verdict.robustness:+.3g}"
-        if verdict.violated_at is not None:
+        if verdict.violated_at is not None and verdict.reason is None:
             why += f", first violated at {verdict.violated_at:.4g} s"
         word = "pass" if verdict.passed else "FAIL"
         lines += textwrap.wrap(

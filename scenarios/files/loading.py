@@ -138,7 +138,7 @@ def read(source: str | Path, overrides: Sequence[str] = ()) -> Reading:
     scenario, problems = check(document)
     if problems:
         first = min(problems, key=lambda problem: document.line(problem.path))
-        more = f" (+{len(problems) - 1} more; see cowalk check {file})" if problems[1:] else ""
+        others = f"+{len(problems) - 1} more" if problems[1:] else ""
         blamed = [
             (len(change.path), number)
             for number, change in enumerate(changes)
@@ -146,7 +146,9 @@ def read(source: str | Path, overrides: Sequence[str] = ()) -> Reading:
         ]
         if blamed:  # the one that says most exactly where
             number = max(blamed)[1]
+            more = f" ({others})" if others else ""
             raise OverrideError(overrides[number], f"{first.message}{more}", number)
+        more = f" ({others}; see cowalk check {file})" if others else ""
         raise InputError(f"{file}:{document.line(first.path)}: {first.message}{more}")
     assert scenario is not None
     return Reading(

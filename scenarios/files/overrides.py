@@ -181,6 +181,7 @@ def _step(place: Any, path: KeyPath, step: str) -> tuple[Any, KeyPath]:
         raise InputError(f"{where} is {place!r}, there is nothing inside it")
     if not step.isdecimal() or int(step) >= len(place):
         there = f"{len(place)} entries, 0 to {len(place) - 1}" if place else "no entries"
+        there = "one entry, 0" if len(place) == 1 else there
         raise InputError(f"{where} has {there}; {step!r} is none of them")
     return int(step), (*path, int(step))
 

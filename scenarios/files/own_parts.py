@@ -50,10 +50,11 @@ def judge_own_part(address: str) -> OwnPart:
     check = part.own_faults()
     problems = check(found) if check else []
     problems += _column_faults(found)
+    whose = f"{address} ({part.kind})"
     if not _registry(part).suits(found):
-        what = f"taken for a part of the kind {part.kind!r}: "
-        problems = [f"{what}{problem}" for problem in problems or [_lacking(part, found)]]
-    return OwnPart(part.kind, [f"{address}: {problem}" for problem in problems])
+        whose = f"{address}: taken for a part of the kind {part.kind!r}"
+        problems = problems or [_lacking(part, found)]
+    return OwnPart(part.kind, [f"{whose}: {problem}" for problem in problems])
 
 
 def kind_of(found: Any) -> Part | None:

@@ -45,7 +45,18 @@ class Blame:
         found = otherwise
         for owner in _owners(failure.__traceback__):
             found = self._names.get(id(owner), found)
-        return found
+        return self._called_wrongly(failure) or found
+
+    def _called_wrongly(self, failure: BaseException) -> str | None:
+        """Return whose method takes other arguments than it was given: it was never entered."""
+        if not isinstance(failure, TypeError):
+            return None
+        method = str(failure).partition("(")[0]
+        for part in reversed(self._parts):
+            classes = type(part).__mro__
+            if method.rpartition(".")[0] in {owner.__qualname__ for owner in classes}:
+                return self._names[id(part)]
+        return None
 
 
 def _named(

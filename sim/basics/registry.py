@@ -172,7 +172,8 @@ class Registry(Generic[T]):
         """Return why something is no constructor of this kind, None if it is one."""
         if isinstance(found, type):
             missing = [method for method in self.calls if not hasattr(found, method)]
-            needs = f"a {self.kind} needs {', '.join(self.calls)}"
+            article = "an" if self.kind[0] in "aeiou" else "a"
+            needs = f"{article} {self.kind} needs {', '.join(self.calls)}"
             return f"has no method {missing[0]!r}; {needs}" if missing else None
         marked = marked_kind(found)
         if marked is not None and marked != self.kind:

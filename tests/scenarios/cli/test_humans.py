@@ -101,7 +101,7 @@ def test_check_takes_an_agent(cowalk, tmp_path, monkeypatch):
     code, out, _ = cowalk("check", "faulty_models:Faulty")
     assert code == 2
     assert out == (
-        "faulty_models:Faulty: truth returned None: "
+        "faulty_models:Faulty (human): truth returned None: "
         "return Truth(wish=np.array([v, omega]), stubbornness=np.array([s_v, s_omega]))\n"
     )
     code, out, _ = cowalk("check", "cowalk.agents.humans.steady:SteadyHuman")
@@ -112,7 +112,7 @@ def test_an_agent_that_cannot_be_found_is_an_error_like_any_other(cowalk, folder
     code, out, error = cowalk("check", "nowhere:Nobody", "my_models:Quiet")
     assert code == 2
     assert error == "cowalk: 'nowhere:Nobody' cannot be imported: No module named 'nowhere'\n"
-    assert out.startswith("my_models:Quiet: ")
+    assert out.startswith("my_models:Quiet (human): ")
 
 
 def test_humans_list_is_list_humans(cowalk):

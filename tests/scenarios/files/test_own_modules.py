@@ -177,6 +177,15 @@ def test_a_part_that_lacks_a_method_is_taken_for_the_nearest_kind(folder):
     assert "kind 'plant': has no method 'save'; a plant needs reset, step, save" in said[0]
 
 
+def test_a_fault_says_which_kind_the_part_was_taken_for(folder):
+    (folder / "faulty_parts.py").write_text(
+        "class Doubles:\n    def reset(self, initial): pass\n"
+        "    def update(self, value): return 2.0 * value\n"
+    )
+    faults = judge_own_part("faulty_parts:Doubles").faults
+    assert all(fault.startswith("faulty_parts:Doubles (smoother): ") for fault in faults)
+
+
 def test_a_mark_is_of_one_kind():
     @part("observer")
     def built():

@@ -136,6 +136,11 @@ class Talker(InteractionStrategy):
         return replace(super().agree(negotiation), extras={"hurry": 1.0})
 
 
+class Deaf:
+    def reset(self, rates): pass
+    def update(self, value): return value
+
+
 class Mute(Talker):
     pass
 
@@ -242,6 +247,16 @@ OBSERVER = "automation.observer=faulty:Observer"
             ["automation=faulty:Mute"],
             "automation 'faulty:Mute'",
             "agree() gave an array of shape (2,); it must be an Agreement",
+        ),
+        (
+            ["automation.observer=faulty:Deaf"],
+            "observer 'faulty:Deaf'",
+            "TypeError: Deaf.reset() takes 2 positional arguments",
+        ),
+        (
+            ["automation.front_end=faulty:Deaf"],
+            "front end 'faulty:Deaf'",
+            "TypeError: Deaf.update() takes 2 positional arguments",
         ),
     ],
 )
