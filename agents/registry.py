@@ -49,8 +49,8 @@ AUTOMATIONS: Registry[Automation] = Registry(
     "automation",
     {
         "stubbornness": "cowalk.agents.automations.strategies.stubbornness:StubbornnessAutomation",
-        "never-yields": "cowalk.agents.automations.strategies.leads:NeverYields",
-        "always-yields": "cowalk.agents.automations.strategies.leads:AlwaysYields",
+        "never-yields": "cowalk.agents.automations.strategies.never_yields:NeverYields",
+        "always-yields": "cowalk.agents.automations.strategies.always_yields:AlwaysYields",
     },
     "cowalk.automations",
     protocol=Automation,

@@ -2,6 +2,7 @@
 
 import re
 import sys
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -18,6 +19,15 @@ def on_the_map():
     _, _, rest = (ROOT / "ARCHITECTURE.md").read_text().partition("<!-- one negotiation -->")
     _, picture, _ = rest.split("```", 2)
     return re.findall(rf"^ *\d+  ((?:{'|'.join(PARTS)})/[a-z_/]+)", picture, re.MULTILINE)
+
+
+@contextmanager
+def profiled(note):
+    sys.setprofile(note)
+    try:
+        yield
+    finally:
+        sys.setprofile(None)
 
 
 def passed(plant):
@@ -42,13 +52,11 @@ def passed(plant):
             "automation": automation.act(observations["automation"]),
         }
         calls.clear()
-        sys.setprofile(note)
-        observations, *_ = env.step(actions)
-        sys.setprofile(None)
+        with profiled(note):
+            observations, *_ = env.step(actions)
     before = automation.belief().negotiation
-    sys.setprofile(note)
-    automation.act(observations["automation"])
-    sys.setprofile(None)
+    with profiled(note):
+        automation.act(observations["automation"])
     env.close()
     assert automation.belief().negotiation == before + 1
     measured = next(i for i, (_, name) in enumerate(calls) if name == "ForceSensor.measure")

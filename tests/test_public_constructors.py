@@ -18,7 +18,8 @@ import cowalk.agents
 import cowalk.estimation
 import cowalk.scenarios
 import cowalk.sim
-from cowalk.agents.automations.strategies.leads import AlwaysYields, NeverYields
+from cowalk.agents.automations.strategies.always_yields import AlwaysYields
+from cowalk.agents.automations.strategies.never_yields import NeverYields
 from cowalk.agents.automations.strategies.stubbornness import StubbornnessAutomation
 from cowalk.agents.humans.bounded_memory import BoundedMemoryHuman
 from cowalk.agents.humans.conceding import ConcedingHuman

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from cowalk.sim.basics.errors import InputError
+from cowalk.sim.basics.seats import SEATS
+from cowalk.sim.env.reward import TERMS
 
 UNITS = {
     "t": "s",
@@ -62,6 +64,7 @@ UNITS = {
     "negotiated": "1",
     "reward_human": "1",
     "reward_automation": "1",
+    **{f"reward_{seat}_{term}": "1" for seat in SEATS for term in TERMS},
 }
 """Every column that each trace has and its unit, in the order of the file.
 
@@ -70,7 +73,8 @@ what was measured averaged over it. `fx` and `fy` are the measured force in base
 `sensor_...` the whole reading in the sensor's axes, about its origin, `interaction_...` the
 wrench itself before the sensor, base axes, about the handle. `work` is what the human did to the
 base at the handle in the step, `wheel_...` what the command asks of the driven wheels, and
-`negotiated` is 1 in a step that began with a negotiation. Columns that an automation or its
+`negotiated` is 1 in a step that began with a negotiation. `reward_SEAT_TERM` is what each term
+added to a seat's reward. Columns that an automation or its
 observer adds follow these.
 """
 

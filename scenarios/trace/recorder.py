@@ -63,5 +63,7 @@ class Recorder:
         row["clearance"] = infos["human"]["clearance"]
         row["negotiated"] = float(belief.negotiation > self._negotiations)
         row["reward_human"], row["reward_automation"] = rewards["human"], rewards["automation"]
+        for seat, terms in self._env.reward_terms.items():
+            row |= {f"reward_{seat}_{term}": value for term, value in terms.items()}
         self._negotiations = belief.negotiation
         self.trace.append(row)

@@ -17,7 +17,7 @@ from cowalk.estimation.observers.protocol import Estimate, ForceReading, Observe
 from cowalk.estimation.observers.sample import Sample
 from cowalk.estimation.smoothers.moving_average import MovingAverage
 from cowalk.estimation.smoothers.protocol import Smoother
-from cowalk.sim.basics.errors import PartError
+from cowalk.sim.basics.errors import InputError, PartError
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
 from cowalk.sim.basics.situation import Situation
@@ -55,7 +55,8 @@ class Strategy(ABC):
     Raises
     ------
     InputError
-        If the settings are of another kind, or a part lacks a method.
+        If the settings are of another kind, a part lacks a method, or the observer adds a column
+        that the strategy adds too.
     """
 
     columns: Mapping[str, str] = MappingProxyType({})
@@ -82,6 +83,9 @@ class Strategy(ABC):
         require(
             isinstance(added, Mapping), ("observer", "columns"), added, "units by name are expected"
         )
+        if twice := sorted(self.columns.keys() & added.keys()):
+            what = f"the strategy adds a column {twice[0]!r} too; give one of them another name"
+            raise InputError(f"observer.columns: {what}", ("observer", "columns"))
         self.columns = {**self.columns, **added}
 
     @abstractmethod

@@ -11,7 +11,8 @@ from cowalk.agents.automations.planner.minimise import minimise
 from cowalk.agents.automations.planner.problem import PROBLEMS
 from cowalk.agents.automations.planner.settings import NegotiationSettings
 from cowalk.agents.automations.planner.utility import negotiated
-from cowalk.agents.automations.strategies.leads import AlwaysYields, NeverYields
+from cowalk.agents.automations.strategies.always_yields import AlwaysYields
+from cowalk.agents.automations.strategies.never_yields import NeverYields
 from cowalk.agents.automations.strategies.stubbornness import StubbornnessAutomation
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.motion import TwistBounds, arc_displacement, compose

@@ -145,7 +145,7 @@ def test_a_function_that_is_marked_builds_a_part(folder, scenario_file):
     [
         ("cowalk.agents.humans.steady:SteadyHuman", "human"),
         ("cowalk.agents.imperfections.tremor:Tremor", "imperfection"),
-        ("cowalk.agents.automations.strategies.leads:NeverYields", "automation"),
+        ("cowalk.agents.automations.strategies.never_yields:NeverYields", "automation"),
         ("cowalk.estimation.front_ends.mean:SlidingMean", "front end"),
         ("cowalk.estimation.smoothers.kalman:KalmanSmoother", "smoother"),
         ("cowalk.estimation.observers.paper:PaperObserver", "observer"),

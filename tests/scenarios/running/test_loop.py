@@ -1,9 +1,13 @@
 """A loop of one's own over the PettingZoo environment is the run, bit for bit."""
 
+from typing import ClassVar
+
 import numpy as np
 import pytest
 from pyarrow import parquet
 
+from cowalk.agents.automations.strategies.never_yields import NeverYields
+from cowalk.estimation import PaperObserver
 from cowalk.scenarios import (
     Recorder,
     build_agents,
@@ -303,6 +307,27 @@ def test_a_column_that_every_trace_has_cannot_be_added(tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(tmp_path)
     with pytest.raises(InputError, match="column 'clearance': every trace has it"):
         load("puddle", ["automation=clashing:Talker", "expect={}"])
+
+
+def test_strategy_and_observer_cannot_add_the_same_column():
+    class Talking(NeverYields):
+        columns: ClassVar = {"urgency": "1"}
+
+    class Telling(PaperObserver):
+        columns: ClassVar = {"urgency": "N"}
+
+    with pytest.raises(InputError, match="the strategy adds a column 'urgency' too") as refused:
+        Talking(observer=Telling())
+    assert refused.value.at == ("observer", "columns")
+
+
+def test_reward_columns_add_up_to_the_rewards():
+    trace = run(load("puddle", ["plant=unicycle", "duration=5", "expect={}"])).trace
+    for seat in ("human", "automation"):
+        terms = [trace[name] for name in trace.units if name.startswith(f"reward_{seat}_")]
+        assert len(terms) == 7
+        np.testing.assert_allclose(np.sum(terms, axis=0), trace[f"reward_{seat}"], atol=1e-15)
+    assert np.ptp(trace["reward_human_effort"]) > 0.001
 
 
 def test_keys_and_columns_that_were_renamed_are_refused_with_the_new_name(tmp_path, monkeypatch):

@@ -1,4 +1,4 @@
-"""The two ends of the scale: an automation that never yields, and one that always does."""
+"""The automation that always yields: the other end of the scale."""
 
 from __future__ import annotations
 
@@ -7,14 +7,6 @@ import numpy as np
 from cowalk.sim.basics.motion import Array
 
 from .interaction import InteractionStrategy
-
-
-class NeverYields(InteractionStrategy):
-    """Executes its own wish whatever the human does: U_target = 1."""
-
-    def utility_loss(self, interaction_smoothed: Array) -> Array:
-        """See `InteractionStrategy.utility_loss`."""
-        return np.zeros_like(interaction_smoothed)
 
 
 class AlwaysYields(InteractionStrategy):
