@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+from abc import abstractmethod
 from typing import Any
 
 from pettingzoo import ParallelEnv
@@ -111,9 +112,9 @@ class ResumableEnv(ParallelEnv[str, Observation, Array]):
         present = {name: vars(self)[name] for name in CHANGING if name in vars(self)}
         return copy.deepcopy(present)
 
+    @abstractmethod
     def _observations(self) -> dict[str, Observation]:
         """Return what the seats perceive now."""
-        raise NotImplementedError
 
     def _require(self, what: str, opened: bool = False) -> None:
         """Refuse what needs an episode, under way or over, and perhaps an open environment."""
