@@ -60,7 +60,7 @@ def interaction_value(stubbornness_norm: ArrayLike, utility_loss_before: ArrayLi
     Parameters
     ----------
     stubbornness_norm : array_like, shape (...)
-        Norm of the stubbornness, scaled to [0, 1] (`stubbornness_norm`).
+        Norm of the stubbornness, in [0, 1] (`stubbornness_norm`).
     utility_loss_before : array_like, shape (...)
         Utility loss of the step before, in [0, 1].
     """
@@ -68,10 +68,11 @@ def interaction_value(stubbornness_norm: ArrayLike, utility_loss_before: ArrayLi
 
 
 def stubbornness_norm(values: ArrayLike) -> Array:
-    """Return the Euclidean norm over the negotiated dimensions, scaled to stay within [0, 1].
+    """Return the Euclidean norm over the negotiated dimensions, capped at 1.
 
-    Unscaled, two dimensions reach sqrt(2) and the interaction value would exceed the maximum
-    of 2 that the paper states.
+    ||x|| = min(1, sqrt(sum x^2)). One dimension alone is exactly the paper's, and whoever is
+    fully stubborn in one of two is conceded everything. Without the cap two dimensions reach
+    sqrt(2), and the interaction value would exceed the maximum of 2 that the paper states.
 
     Parameters
     ----------
@@ -81,9 +82,10 @@ def stubbornness_norm(values: ArrayLike) -> Array:
     Returns
     -------
     ndarray, shape (...)
+        In [0, 1].
     """
     values = np.asarray(values, dtype=float)
-    return np.asarray(np.sqrt(np.mean(values**2, axis=-1)))
+    return np.asarray(np.minimum(np.linalg.norm(values, axis=-1), 1.0))
 
 
 def utility_loss(

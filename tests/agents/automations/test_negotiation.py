@@ -160,6 +160,20 @@ def test_more_force_earns_more_concession(observe):
     assert (np.diff(losses) > 0.05).all()
 
 
+@pytest.mark.parametrize("force", [(7.5, 0.0), (0.0, 7.5)])
+def test_whoever_insists_fully_in_one_dimension_is_conceded_everything(observe, force):
+    automation = StubbornnessAutomation(negotiation=NegotiationSettings(dimensions="both"))
+    automation.reset(np.random.default_rng(0), SITUATION)
+    twist = np.array([0.8, 0.0])
+    for _ in range(14 * 40):
+        seen = observe(force=force, pose=(0.0, 0.0, 0.0))
+        seen["twist"] = twist
+        twist = automation.act(seen)
+    belief = automation.belief()
+    assert belief.utility_loss == pytest.approx(1.0, abs=1e-3)
+    np.testing.assert_allclose(twist, belief.human_wish, atol=1e-3)
+
+
 def test_a_period_that_does_not_fit_the_control_period_is_refused_with_both_numbers():
     automation = StubbornnessAutomation(negotiation=NegotiationSettings(period=0.72))
     with pytest.raises(InputError, match=r"0\.72 s .* 0\.05 s; 0\.7 would be"):

@@ -48,6 +48,32 @@ def test_interaction_value_stays_within_its_stated_range(x, loss):
     assert -2.0 <= value <= 2.0 + 1e-12
 
 
+shares = st.floats(0.0, 1.0)
+
+
+@given(shares)
+def test_the_norm_of_one_dimension_alone_is_exactly_the_papers(x):
+    # A square below the smallest float is 0, and nobody's stubbornness.
+    for values in ([x], [x, 0.0], [0.0, x]):
+        assert float(stubbornness_norm(values)) == (x if x > 1e-150 else pytest.approx(x))
+
+
+@given(st.lists(st.tuples(shares, shares, shares), min_size=1, max_size=4))
+def test_the_norm_is_bounded_and_rises_with_every_dimension(drawn):
+    x, y, more = np.array(drawn).T
+    norm = stubbornness_norm(np.stack((x, y), axis=-1))
+    assert norm.shape == x.shape
+    assert ((norm >= np.maximum(x, y) - 1e-12) & (norm <= 1.0)).all()
+    larger = np.maximum(x, more)
+    assert (stubbornness_norm(np.stack((larger, y), axis=-1)) >= norm).all()
+    assert (stubbornness_norm(np.stack((y, larger), axis=-1)) >= norm).all()
+
+
+def test_two_half_stubborn_dimensions_count_more_than_one():
+    assert float(stubbornness_norm([0.3, 0.4])) == pytest.approx(0.5)
+    assert float(stubbornness_norm([0.8, 0.8])) == 1.0
+
+
 def test_interaction_value_reaches_its_stated_maximum():
     assert float(interaction_value(stubbornness_norm([1.0, 1.0]), 1.0)) == pytest.approx(2.0)
     assert float(interaction_value(stubbornness_norm([0.0]), 0.0)) == -2.0

@@ -82,8 +82,13 @@ def test_on_wheels_the_weight_of_what_is_carried_steers_nobody(sensor, mass):
     """What each preset has the range for: the empty stretcher's 8 kg or as much of it as it can."""
     wheels = "plant.parameters.drive.kind=wheels", f"plant.parameters.coupling.mass={mass}"
     result = run(load("carry", (*wheels, f"sensor={sensor}")))
-    assert result.passed, result.verdicts
+    # Before the human sees the puddle only the weight could turn them; without a tare it is 1.2 m.
+    ahead = result.trace["x"] < 4.0
+    assert np.abs(result.trace["y"][ahead]).max() < 0.1
+    assert result.summary["end"] == "goal"
     assert result.summary["sensor"]["saturated"] < 0.1
+    # Behind the low-cost sensor the lightest load ends off the path just the same.
+    assert result.passed or sensor == "low-cost", result.verdicts
 
 
 def test_a_sensor_too_small_for_the_load_is_refused_with_what_would_do():
