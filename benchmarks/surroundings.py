@@ -109,7 +109,7 @@ def measure() -> list[tuple[str, float, str]]:
             "bare engine steps": bare,
             "distances by the engine": lambda engine=engine: walk(engine),
             "distances of a box and a load": lambda boxes=boxes: turn(boxes),
-            "distances in closed form": lambda world=world: walk(Clearance(world, RADII)),
+            "distances in closed form": lambda world=world: walk(Clearance(world, bodies)),
             "the same in arrays": lambda world=world: walk(ArrayClearance(world)),
             "sight of one seat": lambda world=world: look(Eyes(world, "human", eye)),
         }

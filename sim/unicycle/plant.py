@@ -10,9 +10,8 @@ import numpy as np
 from ..basics.errors import SimulationError
 from ..basics.rates import Rates
 from ..basics.validators import require_instance
-from ..plant.discs import HUMAN_PLACE, HUMAN_RADIUS, PLAIN_BODIES
+from ..plant.discs import HUMAN_PLACE, PLAIN_BODIES
 from ..plant.protocol import PlantState
-from ..robot.shipped import BASE_RADIUS
 from ..world.clearance import Clearance
 from ..world.outline import Bodies
 from ..world.world import World
@@ -111,7 +110,7 @@ class UnicyclePlant:
 
     def distances(self, world: World) -> Clearance:
         """See `Plant.distances`: in closed form."""
-        return Clearance(world, (BASE_RADIUS, HUMAN_RADIUS))
+        return Clearance(world, PLAIN_BODIES.parts)
 
     def render(self, width: int, height: int) -> np.ndarray:
         """See `Plant.render`: a drawing from above."""

@@ -14,7 +14,7 @@ from cowalk.sim.engine.engine import connect, disconnect, engine
 from cowalk.sim.plant.registry import PLANTS
 from cowalk.sim.world.clearance import Clearance
 from cowalk.sim.world.footprint import walls
-from cowalk.sim.world.outline import disc
+from cowalk.sim.world.outline import across, bar, disc, rectangle
 from cowalk.sim.world.world import (
     Corridor,
     Doorway,
@@ -38,8 +38,8 @@ RICH = World(
 )
 
 
-def engine_clearance(world, *radii):
-    return EngineClearance(world, [*enumerate(map(disc, radii))])
+def discs(*radii):
+    return [*enumerate(map(disc, radii))]
 
 
 @pytest.fixture(params=[Clearance, EngineClearance])
@@ -47,8 +47,7 @@ def measure(request):
     made = []
 
     def build(world, *radii):
-        exact = request.param is Clearance
-        made.append(Clearance(world, radii) if exact else engine_clearance(world, *radii))
+        made.append(request.param(world, discs(*radii)))
 
         def measured(time, *places):
             return made[-1](time, *((*place[:2], 0.0) for place in places))
@@ -130,21 +129,36 @@ def test_pedestrians_come_nearer(measure):
     assert [touching for _, touching in gaps] == [False, False, False, True]
 
 
-def test_both_plants_measure_alike_within_a_millimetre():
+LYING = bar((0.0, 0.2), (0.3, 0.35), 0.04, 0.9)  # over puddle and pillar's neighbours alike
+
+
+@pytest.mark.parametrize(
+    "parts",
+    [discs(0.28, 0.22), [(0, disc(0.28)), (1, across(0.45, 0.24)), (1, LYING)]],
+    ids=["discs", "capsules"],
+)
+def test_closed_form_and_engine_measure_alike_within_a_millimetre(parts):
     rng = np.random.default_rng(5)
-    exact, engine = Clearance(RICH, (0.28, 0.22)), engine_clearance(RICH, 0.28, 0.22)
-    base = np.array([0.0, 0.0])
+    exact, engine = Clearance(RICH, parts), EngineClearance(RICH, parts)
+    base, touched = np.array([0.0, 0.0]), 0
     for step in range(1500):
         # Wander in small steps, as a run does, and jump now and then, as a reset does.
         jump = step % 50 == 0
         base = rng.uniform((-2, -1.9), (22, 6)) if jump else base + rng.normal(0.0, 0.05, 2)
         human = base + np.array((-0.1, -0.65))
-        poses = (*base, 0.3), (*human, -0.2)
+        poses = (*base, 0.3), (*human, rng.uniform(-3.0, 3.0))
         nearest, touching = exact(0.05 * step, *poses)
         by_engine, engine_touching = engine(0.05 * step, *poses)
         assert by_engine == pytest.approx(nearest, abs=1e-3)
         assert touching == engine_touching or abs(nearest) < 1e-3
+        touched += touching
+    assert 0 < touched < 1500
     engine.close()
+
+
+def test_closed_form_refuses_what_is_neither_disc_nor_capsule():
+    with pytest.raises(InputError, match="outline of 4 discs .* 'bullet'"):
+        Clearance(RICH, [(0, rectangle(-0.3, 0.3, -0.2, 0.2))])
 
 
 def test_no_two_walls_overlap_and_the_corridor_goes_on():
@@ -185,9 +199,9 @@ def test_running_into_something_solid_ends_the_episode(plant, thing):
 
 def test_distances_share_an_engine_world_and_do_not_see_each_other():
     world = World(PATH, obstacles=(Obstacle(3.0, 0.0, 0.5, "pillar"),))
-    stays = engine_clearance(world, 0.3)
+    stays = EngineClearance(world, discs(0.3))
     for _ in range(30):
-        full, empty = engine_clearance(world, 0.3), engine_clearance(World(PATH), 0.3)
+        full, empty = EngineClearance(world, discs(0.3)), EngineClearance(World(PATH), discs(0.3))
         assert full(0.0, (1.0, 0.0, 0.0))[0] == pytest.approx(1.2, **NEAR)
         assert empty(0.0, (1.0, 0.0, 0.0))[0] == math.inf
         assert full._client == empty._client == stays._client
