@@ -40,7 +40,7 @@ END_STIFFNESS = 1500.0
 rad^2 beyond the free range: 0.25 rad take 6 N m in an adult of 70 kg. That such torques are passive
 and rise more than in proportion is known (double exponentials in the lower limbs: Riener and Edrich
 1999, J Biomech 32:539); size and square are inferred, far inside of what a step can carry
-(`cowalk.sim.bullet.stability`)."""
+(`cowalk.sim.pair.stability`)."""
 END_DAMPING = 0.015
 """Excess that counts as much as a rad/s of going further, s (inferred): damping and stiffness stay
 in proportion, half of this, so that holding a torque for a few steps of 1/240 s adds no energy."""

@@ -53,7 +53,7 @@ class WalkerParameters:
     ------
     InputError
         If one is outside of `RANGES`. What is too stiff to be simulated is refused where the
-        bodies are known (`cowalk.sim.bullet.gains`).
+        bodies are known (`cowalk.sim.pair.gains`).
     """
 
     stiffness: float = 1500.0

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Any, NoReturn
 
 import numpy as np
@@ -11,23 +10,12 @@ import numpy as np
 from ..basics.errors import InputError, SimulationError
 from ..basics.frames import Vector
 from ..basics.motion import Array
-from ..basics.validators import refusal
-from ..body.anthropometry import BodyParameters
-from ..body.grip import GripParameters
-from ..body.human_body import arm_outlines, eye, human_body, trunk_outline
-from ..body.walker import WalkerParameters
 from ..engine.engine import connect, engine, free_with
-from ..robot.coupling import CouplingParameters, load_outline
-from ..robot.drive import DriveParameters
-from ..robot.overlap import refuse_overlap
-from ..robot.robot import RobotParameters, robot_of, two_hands
+from ..pair.design import PairParameters, design
 from ..view.look import Look
-from ..world.outline import Bodies
 from .chains import Base, Chain, SlipBase, State
-from .gains import Gains, refuse_unstable
 from .hands import Hands
 from .load import Load
-from .stability import Masses
 from .wheel_base import WheelBase, refuse_wide_track
 
 SETTLING = 0.25
@@ -60,18 +48,6 @@ MAX_RATE = 20.0
 """Turning rate of a body beyond which the simulation counts as diverged, rad/s (inferred)."""
 
 
-@dataclass(frozen=True)
-class PairParameters:
-    """Everything that decides which bodies there are."""
-
-    drive: DriveParameters
-    body: BodyParameters
-    grip: GripParameters
-    coupling: CouplingParameters
-    robot: RobotParameters
-    walker: WalkerParameters = WalkerParameters()
-
-
 class Pair:
     """The bodies of a plant, and their state.
 
@@ -91,37 +67,19 @@ class Pair:
     """
 
     def __init__(self, parameters: PairParameters, step: float, held: int = 1) -> None:
-        drive, coupling, hand = parameters.drive, parameters.coupling, parameters.body.hand
-        if drive.kind == "wheels" and parameters.robot.urdf is not None:
-            raise refusal(("drive", "kind"), drive.kind, "only the robot that ships has wheels")
-        robot = robot_of(parameters.robot, hand, coupling.kind)
+        drive, coupling = parameters.drive, parameters.coupling
+        made = design(parameters, step, held)
+        robot, handles = made.robot, made.handles
         if drive.kind == "wheels":
             refuse_wide_track(robot.rigid, drive)
         carried = coupling.kind == "stretcher"
-        self.handle: Vector = robot.handle
+        self.handle: Vector = made.handle
         """Where the force on the base is measured, base axes, m."""
-        handles = robot.handles
-        if carried:
-            end = (-coupling.length, 0.0, robot.handle[2])
-            handles = two_hands(end) if hand == "both" else (end,)
-        self.body = human_body(parameters.body, handles)
-        # What is held rides on the base: the human's place follows from its own.
-        x, y, yaw = self.body.place
-        shift = robot.handle[:2] if carried else (0.0, 0.0)
-        self.place = (x + shift[0], y + shift[1], yaw)
+        self.body = made.human
+        self.place = made.place
         """Where the trunk walks, base axes: m, m, rad."""
-        name = parameters.robot.handle
-        refuse_overlap(parameters.body, self.place, robot.solids, robot.handle, name)
+        self.bodies = made.bodies
         self.look = Look(robot.urdf, self.body, coupling if carried else None, robot.handle)
-
-        load = coupling.load(robot.handle) if carried else None
-        moved = Masses(robot.rigid, load, self.body, self.place, drive)
-        refuse_unstable(moved, Gains(parameters.walker, parameters.grip), step, held)
-        outlines = {"base": robot.outline, "human": trunk_outline(parameters.body)}
-        if carried:
-            outlines["load"] = load_outline(coupling, robot.handle[2])
-        seats = {"automation": robot.camera, "human": eye(parameters.body)}
-        self.bodies = Bodies(outlines, seats, arm_outlines(self.body, handles))
 
         # Nothing is refused from here on, so that no client is left behind.
         self.client = client = connect()

@@ -19,6 +19,7 @@ from ..body.gait import Gait, GaitParameters
 from ..body.grip import GripParameters
 from ..body.walker import Walker, WalkerParameters
 from ..engine.engine import engine
+from ..pair.design import PairParameters
 from ..plant.protocol import PlantState
 from ..robot.coupling import CouplingParameters
 from ..robot.drive import DriveParameters
@@ -28,7 +29,7 @@ from ..world.outline import Bodies
 from ..world.world import World
 from .chains import State
 from .distances import EngineClearance
-from .pair import Pair, PairParameters
+from .pair import Pair
 from .pictures import Pictures
 
 if TYPE_CHECKING:

@@ -12,9 +12,9 @@ from cowalk.sim.basics.rates import Rates
 from cowalk.sim.body.anthropometry import BodyParameters
 from cowalk.sim.body.grip import GripParameters
 from cowalk.sim.body.walker import WalkerParameters
-from cowalk.sim.bullet import pair as bullet_pair
 from cowalk.sim.bullet.plant import BulletPlant
-from cowalk.sim.bullet.stability import Linear
+from cowalk.sim.pair import design as pair_design
+from cowalk.sim.pair.stability import Linear
 from cowalk.sim.world.world import World
 
 WORLD = World(Path(((0, 0), (20, 0))))
@@ -61,7 +61,7 @@ def test_the_largest_gain_named_works_and_twice_of_it_diverges(option, monkeypat
         with pytest.raises(InputError, match=key):
             walk(**with_gain(option, key, 1.1 * largest))
         with monkeypatch.context() as patch:
-            patch.setattr(bullet_pair, "refuse_unstable", lambda *_: None)
+            patch.setattr(pair_design, "refuse_unstable", lambda *_: None)
             with pytest.raises(SimulationError, match=r"diverged .* gains of walker"):
                 walk(300, **with_gain(option, key, 2.0 * largest))
 

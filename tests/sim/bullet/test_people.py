@@ -8,7 +8,7 @@ from cowalk.sim.basics.path import Path
 from cowalk.sim.basics.rates import Rates
 from cowalk.sim.body.anthropometry import BodyParameters, yaw_inertia
 from cowalk.sim.body.walker import Legs, WalkerParameters, legs_of
-from cowalk.sim.bullet import stability
+from cowalk.sim.pair import stability
 from cowalk.sim.bullet.plant import BulletPlant
 from cowalk.sim.world.world import World
 

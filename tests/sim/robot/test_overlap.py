@@ -13,7 +13,8 @@ from cowalk.sim.basics.errors import InputError
 from cowalk.sim.body.anthropometry import BodyParameters
 from cowalk.sim.body.grip import GripParameters
 from cowalk.sim.body.human_body import human_body
-from cowalk.sim.bullet.pair import Pair, PairParameters
+from cowalk.sim.bullet.pair import Pair
+from cowalk.sim.pair.design import PairParameters
 from cowalk.sim.robot.coupling import CouplingParameters
 from cowalk.sim.robot.drive import DriveParameters
 from cowalk.sim.robot.overlap import TOLERANCE, refuse_overlap
