@@ -30,9 +30,30 @@ class VacuousExpectation(pytest.PytestWarning):
 class RunScenario(Protocol):
     """What the fixture `run_scenario` gives."""
 
-    def __call__(self, source: str | Path, *overrides: str, seed: int | None = None) -> RunResult:
-        """Run a scenario by its name or file, with ``dotted.key=VALUE`` overrides."""
+    def __call__(
+        self,
+        source: str | Path,
+        *overrides: str,
+        seed: int | None = None,
+        trust: bool | None = None,
+    ) -> RunResult:
+        """Run a scenario by its name or file, with ``dotted.key=VALUE`` overrides.
+
+        ``trust`` says whether code that the file names may be imported; left out, pytest's
+        option does.
+        """
         ...
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add the option, and the line in a configuration file, that trusts scenario files."""
+    said = "import code that scenario files name"
+    parser.getgroup("cowalk").addoption("--cowalk-trust", action="store_true", help=said)
+    parser.addini("cowalk_trust", said, type="bool", default=False)
+
+
+def _trusted(config: pytest.Config) -> bool:
+    return bool(config.getoption("--cowalk-trust") or config.getini("cowalk_trust"))
 
 
 @pytest.fixture
@@ -42,12 +63,19 @@ def run_scenario(request: pytest.FixtureRequest) -> RunScenario:
     A relative path is taken from the test's folder, else from the current one.
     """
 
-    def run_it(source: str | Path, *overrides: str, seed: int | None = None) -> RunResult:
+    def run_it(
+        source: str | Path,
+        *overrides: str,
+        seed: int | None = None,
+        trust: bool | None = None,
+    ) -> RunResult:
         from .files.loading import load
 
         beside = request.path.parent / source
         own_seed = [] if seed is None else [f"seed={seed}"]
-        return _run(load(beside if beside.is_file() else source, [*overrides, *own_seed]))
+        file = beside if beside.is_file() else source
+        trust = _trusted(request.config) if trust is None else trust
+        return _run(load(file, [*overrides, *own_seed], trust=trust))
 
     return run_it
 
@@ -93,10 +121,12 @@ class ScenarioFile(pytest.File):
         """Return the line of each expectation by its name; None if the file is broken."""
         from .files.loading import faults, load, read_document
 
-        if faults(self.path):
+        trust = _trusted(self.config)
+        if faults(self.path, trust=trust):
             return None
         document = read_document(self.path)
-        return {name: document.line(("expect", name)) for name in load(self.path).expect}
+        expect = load(self.path, trust=trust).expect
+        return {name: document.line(("expect", name)) for name in expect}
 
     def result(self) -> RunResult:
         """Return the result of the run, which is made once.
@@ -111,15 +141,16 @@ class ScenarioFile(pytest.File):
         from .files.loading import faults, load
 
         if self._result is None:
+            trust = _trusted(self.config)
             try:
-                found = faults(self.path)
+                found = faults(self.path, trust=trust)
             except InputError as error:  # it cannot be read at all
                 raise Failure(str(error)) from error
             if found:
                 count = f"{len(found)} fault{'s' * (len(found) > 1)}"
                 lines = [f"  line {fault.line}: {fault.message}" for fault in found]
                 raise Failure("\n".join([f"{self.path} is broken, {count}:", *lines]))
-            self._result = _run(load(self.path))
+            self._result = _run(load(self.path, trust=trust))
         if self._result.error is not None:
             raise Failure(f"the run was aborted: {self._result.error}\n{self.hint()}")
         return self._result

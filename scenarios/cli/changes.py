@@ -29,10 +29,13 @@ class Changes:
         Option, key of the scenario and value, for every option that was given.
     assignments : sequence of str
         Values of ``--set``.
+    trust : bool
+        Whether code that the scenario's file names may be imported.
     """
 
     names: Sequence[tuple[str, str, str | int]]
     assignments: Sequence[str]
+    trust: bool = False
 
     def __iter__(self) -> Iterator[tuple[str, str]]:
         """Yield how each change was written, and as an assignment."""
@@ -59,11 +62,11 @@ def changing(command: Callable[..., int], **usual: str) -> Callable[..., int]:
     """
     swaps = flagged()
 
-    def called(assign: list[str] | None, seed: int | None, **given: Any) -> int:
+    def called(assign: list[str] | None, seed: int | None, trust: bool, **given: Any) -> int:
         names = [(f"--{part.flag}", ".".join(part.section), given.pop(part.key)) for part in swaps]
         names = [each for each in names if each[2] is not None]
         names += [] if seed is None else [("--seed", "seed", seed)]
-        changes = Changes(names, assign or [])
+        changes = Changes(names, assign or [], trust)
         return command(changes=changes, **given)
 
     signature = inspect.signature(command, eval_str=True)
@@ -72,6 +75,7 @@ def changing(command: Callable[..., int], **usual: str) -> Callable[..., int]:
         if parameter.name == "changes":
             parameters += [_option(part, usual.get(part.key)) for part in swaps]
             parameters += [_keyword("assign", _SET, None), _keyword("seed", _SEED, None)]
+            parameters.append(_keyword("trust", Trust, False))
         else:
             parameters.append(parameter.replace(kind=inspect.Parameter.KEYWORD_ONLY))
     called.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]
@@ -88,6 +92,11 @@ _SET = Annotated[
         help="Set one value, or merge a mapping (KEY:=VALUE replaces it); repeatable.",
     ),
 ]
+Trust = Annotated[
+    bool,
+    typer.Option("--trust", help="Import code that the file names; see docs/security.md."),
+]
+"""The option of every command that reads a file which may name code."""
 _SEED = Annotated[int | None, typer.Option("--seed", help="Seed instead of the scenario's.")]
 
 
@@ -122,7 +131,7 @@ def read_changed(source: str, changes: Changes) -> Reading:
 
     with blamed(changes):
         _refuse_contradictions(changes)
-        reading = read(source, [assignment for _, assignment in changes])
+        reading = read(source, [assignment for _, assignment in changes], trust=changes.trust)
     for dropped in reading.dropped:
         complain(str(dropped))
     return reading

@@ -9,6 +9,7 @@ from typing import Annotated
 
 import typer
 
+from .changes import Trust
 from .output import BAD_INPUT, FAILED, PASSED, complain, progress_bar
 
 
@@ -41,6 +42,7 @@ def check(
             help="Run each scenario as well: every expectation must hold, and not vacuously.",
         ),
     ] = False,
+    trust: Trust = False,
 ) -> int:
     """Report every fault of scenario files, or of parts of your own."""
     from cowalk.sim.basics.errors import InputError
@@ -60,7 +62,7 @@ def check(
             if part:
                 kind, found = judge_own_part(file)
             else:
-                found = list(map(str, faults(find(file))))
+                found = list(map(str, faults(find(file), trust=trust)))
         except InputError as error:
             if part:  # there is nothing to check
                 complain(str(error))
@@ -69,20 +71,20 @@ def check(
             found = [str(error)]
         one = BAD_INPUT if found else PASSED
         if strict and not part and not found:
-            found, one = _not_met(find(file))
+            found, one = _not_met(find(file), trust)
         print("\n".join(found) if found else f"{file}: no fault{f' ({kind})' * bool(kind)}")
         code = max(code, one)
     return code
 
 
-def _not_met(file: Path) -> tuple[list[str], int]:
+def _not_met(file: Path, trust: bool) -> tuple[list[str], int]:
     """Run a scenario; return what it does not meet, a line each, and the exit code for it."""
     from ..expect.verdict import explain
     from ..files.assembling import said_parts
     from ..files.loading import load, read_document
     from ..running.runner import run
 
-    scenario = load(file)
+    scenario = load(file, trust=trust)
     with progress_bar(scenario.name) as progress, redirect_stdout(sys.stderr):
         result = run(scenario, progress)
     if result.error is not None:

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import typer
 
 from ..files.parts import kind_of_part
-from .changes import Changes, blamed, changing, load_changed, option
+from .changes import Changes, Trust, blamed, changing, load_changed, option
 from .listing import list_parts
 from .output import PASSED, Json, emit_json, emit_table, progress_bar
 
@@ -59,12 +59,13 @@ def sample(
     plant: Annotated[
         str, typer.Option(help="Plant they will walk on: what its body makes is left out.")
     ] = "unicycle",
+    trust: Trust = False,
     as_json: Json = False,
 ) -> int:
     """Draw people from a population, each a human section of a scenario."""
     from ..people.population import load_population
 
-    drawn = load_population(population).draw(count, seed, plant)
+    drawn = load_population(population, trust=trust).draw(count, seed, plant)
     if as_json:
         emit_json(
             {

@@ -14,16 +14,16 @@ import yaml
 from pydantic import BaseModel
 
 from cowalk.sim.basics.errors import InputError
-from cowalk.sim.basics.own_modules import look_in
 from cowalk.sim.basics.registry import did_you_mean
 from cowalk.sim.basics.validators import require
 
 from .diagnosis import check
 from .documents import Document, KeyPath, dotted, knows_exponents, parse
 from .file_names import begin_paths_at
-from .overrides import Change, Dropped, OverrideError, expand_names, override
+from .overrides import Change, Dropped, OverrideError, expand_names, override, parsed
 from .schema import Scenario
 from .shipped import scenario_library
+from .trust import code_named, untrusted
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ def find(source: str | Path) -> Path:
     raise InputError(f"unknown scenario {str(source)!r}; {known_names}, or the path of a YAML file")
 
 
-def load(source: str | Path, overrides: Sequence[str] = ()) -> Scenario:
+def load(source: str | Path, overrides: Sequence[str] = (), *, trust: bool = False) -> Scenario:
     """Return a scenario, everything in it checked.
 
     Parameters
@@ -84,13 +84,17 @@ def load(source: str | Path, overrides: Sequence[str] = ()) -> Scenario:
         ``dotted.key=VALUE``, the value in YAML, list entries by their index; relative paths
         begin in the working folder. A part set to another name is swapped
         (see `cowalk.scenarios.files.overrides.override`).
+    trust : bool
+        Whether code that the file names, ``module:Class``, may be imported: it can do
+        whatever you can. What an override names may be.
 
     Raises
     ------
     InputError
-        If the file or an override is not right: the first fault, in one line.
+        If the file or an override is not right, or the file names code and is not trusted:
+        the first fault, in one line.
     """
-    return read(source, overrides).scenario
+    return read(source, overrides, trust=trust).scenario
 
 
 @dataclass(frozen=True)
@@ -111,7 +115,7 @@ class Reading:
     dropped: tuple[Dropped, ...]
 
 
-def read(source: str | Path, overrides: Sequence[str] = ()) -> Reading:
+def read(source: str | Path, overrides: Sequence[str] = (), *, trust: bool = False) -> Reading:
     """Return a scenario as `load` does, and where what it says comes from.
 
     Raises
@@ -133,6 +137,9 @@ def read(source: str | Path, overrides: Sequence[str] = ()) -> Reading:
             given = {path: given[path] for path in there if path in given}
             for written in changes[-1].written:
                 given |= {path: "flag" for path in there if path[: len(written)] == written}
+    said = {name for each in overrides for name in _texts(parsed(each)[2])}
+    if fault := untrusted(file, document, code_named(document.data), trust, said):
+        raise InputError(f"{file}:{document.line(fault.path)}: {fault.message}")
     folder = file.resolve().parent
     begin_paths_at(folder, document.data, lambda place: given.get(place) == "file")
     scenario, problems = check(document)
@@ -170,13 +177,24 @@ def leaves(value: Any, path: KeyPath = ()) -> Iterator[tuple[KeyPath, Any]]:
         yield path, value
 
 
+def _texts(value: Any) -> set[str]:
+    return {item for _, item in leaves(value) if isinstance(item, str)}
+
+
 def _touch(one: KeyPath, other: KeyPath) -> bool:
     shared = min(len(one), len(other))
     return bool(other) and one[:shared] == other[:shared]
 
 
-def faults(file: str | Path) -> list[FileFault]:
+def faults(file: str | Path, *, trust: bool = False) -> list[FileFault]:
     """Return every fault of a scenario file, in the order of its lines; none if it is right.
+
+    Parameters
+    ----------
+    file : str or Path
+    trust : bool
+        Whether code that the file names may be imported; otherwise, if it names some, that is
+        all that is said of it.
 
     Raises
     ------
@@ -185,10 +203,14 @@ def faults(file: str | Path) -> list[FileFault]:
     """
     document = read_document(Path(file))
     expand_names(document.data)
-    begin_paths_at(Path(file).resolve().parent, document.data, lambda place: True)
+    if fault := untrusted(Path(file), document, code_named(document.data), trust):
+        problems = [fault]
+    else:
+        begin_paths_at(Path(file).resolve().parent, document.data, lambda place: True)
+        problems = check(document)[1]
     found = [
         FileFault(Path(file), document.line(problem.path), dotted(problem.path), problem.message)
-        for problem in check(document)[1]
+        for problem in problems
     ]
     return sorted(found, key=lambda fault: fault.line)
 
@@ -201,7 +223,6 @@ def read_document(file: Path) -> Document:
     InputError
         If the file cannot be read.
     """
-    look_in(file.resolve().parent)  # for `module:Class`, wherever it is run from
     try:
         return parse(file.read_text(encoding="utf-8"))
     except OSError as error:

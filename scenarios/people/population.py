@@ -26,6 +26,7 @@ from ..files.documents import Document, Fault, KeyPath, dotted
 from ..files.loading import read_document
 from ..files.overrides import expand_names
 from ..files.schema import HumanComponent, human_model
+from ..files.trust import code_named, untrusted
 from ..files.validation import validate
 from .distribution import KEY, Distribution
 
@@ -160,7 +161,7 @@ def population_library() -> dict[str, Path]:
     return {file.name.removesuffix(SUFFIX): file for file in sorted(folder.glob(f"*{SUFFIX}"))}
 
 
-def load_population(source: str | Path) -> Population:
+def load_population(source: str | Path, *, trust: bool = False) -> Population:
     """Return a population, everything in it checked.
 
     Every distribution is tried at its smallest and at its largest value, the others at their
@@ -170,11 +171,13 @@ def load_population(source: str | Path) -> Population:
     ----------
     source : str or Path
         Name of one that ships, or path of a YAML file.
+    trust : bool
+        Whether code that the file names, ``module:Class``, may be imported.
 
     Raises
     ------
     InputError
-        If the file is not right: the first fault, in one line.
+        If the file is not right, or names code and is not trusted: the first fault, in one line.
     """
     known = population_library()
     what = "the name or the path of a population is expected"
@@ -184,12 +187,23 @@ def load_population(source: str | Path) -> Population:
         names = did_you_mean(str(source), list(known))
         raise InputError(f"unknown population {str(source)!r}; {names}, or the path of a YAML file")
     document = read_document(file)
+    if fault := untrusted(file, document, _code_named(document.data), trust):
+        raise InputError(f"{file}:{document.line(fault.path)}: {fault.message}")
     population, problems = _check(document)
     if problems or population is None:
         first = min(problems, key=lambda problem: document.line(problem.path))
         more = f" (+{len(problems) - 1} more)" if problems[1:] else ""
         raise InputError(f"{file}:{document.line(first.path)}: {first.message}{more}")
     return population
+
+
+def _code_named(data: Any) -> list[tuple[KeyPath, str]]:
+    groups = data.get("groups") if isinstance(data, dict) else None
+    return [
+        (("groups", index, *path), name)
+        for index, group in enumerate(groups if isinstance(groups, list) else [])
+        for path, name in code_named(group)
+    ]
 
 
 def _check(document: Document) -> tuple[Population | None, list[Fault]]:

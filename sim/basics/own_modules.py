@@ -19,6 +19,8 @@ from types import FrameType, ModuleType
 _named: ContextVar[str | None] = ContextVar("named", default=None)
 """The module that is being imported because a name says so."""
 _folders: list[str] = []
+_own: dict[Path, str] = {}
+"""The folder of every module that was found here, by its file, or by its own folder."""
 
 
 def look_in(folder: str | Path) -> None:
@@ -53,7 +55,7 @@ def _naming(name: str) -> Iterator[None]:
 
 
 class _BesideFinder(MetaPathFinder):
-    """Finds a top-level module for who named it, and for a module in the same folder."""
+    """Finds a top-level module for who named it, and for a module found so, in the same folder."""
 
     def find_spec(
         self,
@@ -67,8 +69,20 @@ class _BesideFinder(MetaPathFinder):
         places = folders()
         if fullname != _named.get():
             asking = _importing_file(sys._getframe(1))
-            places = [folder for folder in places if Path(folder) in asking.parents]
-        return PathFinder.find_spec(fullname, places) if places else None
+            # The working folder may hold a whole environment: what is installed there is not mine.
+            places = [_own[place] for place in (asking, *asking.parents) if place in _own]
+        found = PathFinder.find_spec(fullname, places) if places else None
+        for place in _places(found):
+            _own[place] = str(place.parent)
+        return found
+
+
+def _places(spec: ModuleSpec | None) -> list[Path]:
+    """Return the file of a module, or the folders of a package."""
+    if spec is None:
+        return []
+    inside = spec.submodule_search_locations
+    return [Path(each) for each in (inside or filter(None, [spec.origin]))]
 
 
 def _importing_file(frame: FrameType | None) -> Path:

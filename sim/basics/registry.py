@@ -171,7 +171,7 @@ class Registry(Generic[T]):
     def mismatch(self, found: Any) -> str | None:
         """Return why something is no constructor of this kind, None if it is one."""
         if isinstance(found, type):
-            missing = [method for method in self.calls if not hasattr(found, method)]
+            missing = [name for name in self.calls if not callable(getattr(found, name, None))]
             article = "an" if self.kind[0] in "aeiou" else "a"
             needs = f"{article} {self.kind} needs {', '.join(self.calls)}"
             return f"has no method {missing[0]!r}; {needs}" if missing else None

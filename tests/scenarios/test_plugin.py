@@ -108,10 +108,10 @@ def test_a_file_that_cowalk_stumbles_over_keeps_no_other_from_running(scenarios)
 
         known = loading.faults
 
-        def faults(file):
+        def faults(file, **more):
             if file.name.startswith("odd"):
                 raise AttributeError("a fault of cowalk's own")
-            return known(file)
+            return known(file, **more)
 
         loading.faults = faults
         """
@@ -141,7 +141,7 @@ def test_a_scenario_without_expectations_must_run_through(scenarios):
     )
     pytester = scenarios(good=text, astray=text.replace("steady", "astray_models:TurnsToNan"))
     pytester.makepyfile(astray_models=models)
-    result = pytester.runpytest_inprocess("-v")
+    result = pytester.runpytest_inprocess("-v", "--cowalk-trust")
     result.assert_outcomes(passed=1, failed=1)
     result.stdout.fnmatch_lines(["*good.scenario.yaml::runs to its end PASSED*"])
     result.stdout.fnmatch_lines(["the run was aborted: *nan*"])
@@ -161,6 +161,7 @@ def test_the_run_is_made_once_a_file(scenarios):
         """
     pytester = scenarios(good=GOOD.replace("steady", "counting_models:Counted"))
     pytester.makepyfile(counting_models=counting)
+    pytester.makeini("[pytest]\ncowalk_trust = true")
     pytester.runpytest_inprocess().assert_outcomes(passed=2)
     assert (pytester.path / "resets.txt").read_text() == "reset\n"
 

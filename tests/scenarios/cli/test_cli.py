@@ -342,7 +342,7 @@ def test_check_strict_finds_nothing_where_all_holds(cowalk, scenario_file):
 
 def test_check_strict_reports_a_run_that_was_aborted(cowalk, scenario_file):
     file = scenario_file(("name: steady", "name: my_models:TurnsToNan"))
-    code, out, _ = cowalk("check", "--strict", file)
+    code, out, _ = cowalk("check", "--strict", "--trust", file)
     assert code == 2
     assert out.startswith(f"{file}: the run was aborted: ")
 

@@ -188,7 +188,7 @@ def test_rates_and_negotiation_period_must_divide(scenario_file):
 
 def test_a_value_that_only_a_constructor_can_judge_is_found_at_its_line(scenario_file):
     file = scenario_file(("  name: steady", "  name: my_models:Picky\n  parameters: {push: -1}"))
-    (fault,) = faults(file)
+    (fault,) = faults(file, trust=True)
     assert (fault.line, fault.key) == (7, "human.parameters.push")
     assert fault.message == "human.parameters.push = -1.0: must not be negative"
 

@@ -54,7 +54,7 @@ def test_a_users_modules_find_one_another_whenever_they_ask(mine, scenario_file,
     before = list(sys.path)
     file = scenario_file(("name: steady", "name: mine_beside:Mine"))
     monkeypatch.chdir("/")  # found beside the file, wherever it is run from
-    result = run(load(file))
+    result = run(load(file, trust=True))
     assert result.error is None
     assert result.trace["fx_intent"][-1] == 1.5
     assert sys.path == before
@@ -62,7 +62,7 @@ def test_a_users_modules_find_one_another_whenever_they_ask(mine, scenario_file,
 
 def test_another_process_finds_a_users_class_too(mine, scenario_file, monkeypatch):
     mine(late=True)
-    scenario = load(scenario_file(("name: steady", "name: mine_beside:Mine")))
+    scenario = load(scenario_file(("name: steady", "name: mine_beside:Mine")), trust=True)
     monkeypatch.chdir("/")
     (pushed,) = Parallel(n_jobs=2)([delayed(_last_push)(scenario)])
     assert pushed == 1.5
@@ -105,7 +105,7 @@ def test_nothing_is_called_that_is_no_part(scenario_file, monkeypatch, name):
     monkeypatch.setattr("subprocess.Popen.__init__", lambda *args, **more: called.append(args))
     file = scenario_file(("name: steady", f"name: {name}"))
     with pytest.raises(InputError, match=r"is not a class; mark a function|has no method 'reset'"):
-        load(file)
+        load(file, trust=True)
     with pytest.raises(InputError, match="is no part of any kind"):
         judge_own_part(name)
     assert not called
@@ -133,7 +133,7 @@ def wide():
 def test_a_function_that_is_marked_builds_a_part(folder, scenario_file):
     (folder / "marked_parts.py").write_text(MARKED)
     file = scenario_file(("name: steady", "name: marked_parts:firm"))
-    assert run(load(file, ["human.parameters.level=0.5"])).error is None
+    assert run(load(file, ["human.parameters.level=0.5"], trust=True)).error is None
     with pytest.raises(InputError, match="builds a part of another kind: smoother"):
         load(file, ["human=marked_parts:wide"])
     assert judge_own_part("marked_parts:firm") == ("human", [])

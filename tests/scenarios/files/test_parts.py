@@ -93,7 +93,7 @@ def test_a_new_kind_of_part_is_one_row(planner, cowalk, scenario_file):
         "planners": [{"name": "slow", "description": "Goes at so much of the bound."}]
     }
     # accepted, and checked
-    assert faults(file) == []
+    assert faults(file, trust=True) == []
     wrong = scenario_file(
         ("automation: never-yields", "automation:\n  name: never-yields\n  planner: sloww"),
         name="wrong.yaml",
@@ -102,8 +102,10 @@ def test_a_new_kind_of_part_is_one_row(planner, cowalk, scenario_file):
     assert (fault.line, fault.key) == (9, "automation.planner.name")
     assert "unknown planner 'sloww'; did you mean 'slow'?" in fault.message
     # set, swapped by an option, shown with its origin
-    assert part_of(load(file, ["automation.planner.parameters.share=0.1"]), "planner").parameters
-    _, out, _ = cowalk("run", file, "--planner", "slow", "--show", "--json")
+    assert part_of(
+        load(file, ["automation.planner.parameters.share=0.1"], trust=True), "planner"
+    ).parameters
+    _, out, _ = cowalk("run", file, "--planner", "slow", "--show", "--json", "--trust")
     shown = json.loads(out)
     assert shown["scenario"]["automation"]["planner"] == {
         "name": "slow",
@@ -112,10 +114,10 @@ def test_a_new_kind_of_part_is_one_row(planner, cowalk, scenario_file):
     assert shown["origins"]["automation.planner.parameters.share"] == "file"
     assert (
         "--planner sloww: automation.planner.name: unknown"
-        in (cowalk("run", file, "--planner", "sloww")[2])
+        in (cowalk("run", file, "--planner", "sloww", "--trust")[2])
     )
     # built, run and summarised
-    scenario = load(file)
+    scenario = load(file, trust=True)
     assert build_part(scenario, "automation").planner.share == 0.5
     result = run(scenario)
     assert result.summary["planner"] == "slow"
