@@ -2,7 +2,11 @@ from .export.run_folder import write_run as write_run
 from .files.loading import load as load
 from .files.schema import Scenario as Scenario
 from .files.shipped import scenario_library as scenario_library
-from .people.population import load_population as load_population
+from .people.loading import load_population as load_population
+from .people.loading import population_library as population_library
+from .people.person import Person as Person
+from .people.person import with_person as with_person
+from .people.population import Population as Population
 from .result import RunResult as RunResult
 from .running.build import build_agents as build_agents
 from .running.build import make_env as make_env

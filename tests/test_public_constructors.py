@@ -67,6 +67,7 @@ MADE_BY_COWALK = {
     "Negotiation",
     "Observation",
     "PlantState",
+    "Person",
     "RunResult",
     "Sample",
     "Truth",
@@ -82,7 +83,7 @@ SCORES = {
     "Score",
 }
 """Results, made by the function or the ``fit`` that judges what they are made of."""
-READ_FROM_FILES = {"Scenario"}
+READ_FROM_FILES = {"Population", "Scenario"}
 """Judged by pydantic, fault by fault, before there is one (`cowalk.scenarios.load`)."""
 
 NUMBER = (None, "3", True, math.nan, math.inf, -math.inf, 1e308, -1e308, [], [1.0], {})

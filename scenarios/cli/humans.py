@@ -62,8 +62,8 @@ def sample(
     trust: Trust = False,
     as_json: Json = False,
 ) -> int:
-    """Draw people from a population, each a human section of a scenario."""
-    from ..people.population import load_population
+    """Draw whole people from a population: how they decide, and the body they walk with."""
+    from ..people.loading import load_population
 
     drawn = load_population(population, trust=trust).draw(count, seed, plant)
     if as_json:
@@ -72,21 +72,31 @@ def sample(
                 "population": population,
                 "seed": seed,
                 "plant": plant,
-                "humans": [person.model_dump(exclude_defaults=True) for person in drawn],
+                "people": [
+                    {
+                        "kind": person.kind,
+                        "human": person.human.model_dump(exclude_defaults=True),
+                        "plant": person.plant,
+                    }
+                    for person in drawn
+                ],
             }
         )
         return PASSED
     rows = [
         (
             str(number),
-            person.name,
-            _listed(person.parameters),
-            _listed(person.model_dump(exclude_defaults=True).get("intention", {})),
-            ", ".join(item.name for item in person.imperfections),
+            person.kind or "-",
+            *(_listed(person.plant.get(name, {})) for name in ("body", "gait", "walker")),
+            person.human.name,
+            _listed(person.human.parameters),
+            _listed(person.human.model_dump(exclude_defaults=True).get("intention", {})),
+            ", ".join(item.name for item in person.human.imperfections),
         )
         for number, person in enumerate(drawn, start=1)
     ]
-    header = ("", "model", "parameters", "intention", "imperfections")
+    traits = ("body", "gait", "arm")
+    header = ("", "kind", *traits, "model", "parameters", "intention", "imperfections")
     emit_table(f"{population}, seed {seed}", header, rows)
     return PASSED
 

@@ -145,6 +145,11 @@ def _parameters(constructor: Callable[..., Any]) -> dict[str, inspect.Parameter]
     return found
 
 
+def parameter_names(constructor: Callable[..., Any]) -> list[str]:
+    """Return the names of what a constructor takes by keyword."""
+    return list(_accepted(constructor))
+
+
 def _accepted(constructor: Callable[..., Any]) -> dict[str, inspect.Parameter]:
     parameters = _parameters(constructor)
     return {name: item for name, item in parameters.items() if item.kind in _KEYWORDS}

@@ -1,12 +1,9 @@
-"""Populations: distributions over human models and their parameters, drawn reproducibly."""
+"""Populations: distributions over people, whole and drawn reproducibly."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from copy import deepcopy
-from importlib.resources import files
-from os import PathLike
-from pathlib import Path
+from collections.abc import Callable, Sequence
+from functools import cached_property
 from typing import Annotated, Any
 
 import numpy as np
@@ -14,26 +11,24 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from cowalk.agents.humans.open_loop import OpenLoopHuman
 from cowalk.agents.imperfections.wrapper import Imperfection
-from cowalk.agents.registry import IMPERFECTIONS
+from cowalk.agents.registry import HUMANS, IMPERFECTIONS
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.rates import Rates
-from cowalk.sim.basics.registry import did_you_mean
-from cowalk.sim.basics.validators import require
-from cowalk.sim.plant.registry import PLANTS
+from cowalk.sim.body.gait import GaitParameters, step_frequency
 
-from ..files.assembling import build_human, unsuited
-from ..files.documents import Document, Fault, KeyPath, dotted
-from ..files.loading import read_document
-from ..files.overrides import expand_names
-from ..files.schema import HumanComponent, human_model
-from ..files.trust import code_named, untrusted
-from ..files.validation import validate
-from .distribution import KEY, Distribution
+from ..files.assembling import unsuited
+from ..files.building import parameter_names
+from ..files.documents import KeyPath
+from ..files.schema import Scenario, human_model
+from .distribution import Distribution
+from .person import Person, takes
+from .sections import distributions, filled
+from .traits import ArmParameters, StrengthParameters, Traits
 
-SUFFIX = ".population.yaml"
-"""How the name of a population file ends."""
 PROBABILITY = "probability"
 """Key of an imperfection that only some people have."""
+GAIT_RIPPLE = "gait-ripple"
+"""The imperfection that stands for the gait where a plant has no bodies."""
 
 _RATES = Rates()
 
@@ -58,18 +53,34 @@ class Group(BaseModel):
     because: str = ""
     human: dict[str, Any]
 
+    @cached_property
+    def laws(self) -> dict[KeyPath, Distribution]:
+        """Every distribution, by its path."""
+        return distributions(self.human)
+
 
 class Population(BaseModel):
-    """A distribution over humans."""
+    """A distribution over people.
+
+    Attributes
+    ----------
+    name, description : str
+    people : tuple of Traits
+        Kinds of people, of whom one is drawn for everybody; none in a file that says nothing of
+        bodies.
+    groups : tuple of Group
+        How they behave; a group is drawn for everybody, whatever their kind.
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     name: str
     description: str = ""
+    people: tuple[Traits, ...] = ()
     groups: Annotated[tuple[Group, ...], Field(min_length=1)]
 
-    def draw(self, count: int, seed: int = 0, plant: str = "unicycle") -> list[HumanComponent]:
-        """Return people, each a human section of a scenario.
+    def draw(self, count: int, seed: int = 0, plant: str = "unicycle") -> list[Person]:
+        """Return people.
 
         Every person has a generator of their own: the first ten of a hundred are the ten that
         are drawn alone.
@@ -80,7 +91,8 @@ class Population(BaseModel):
             Number of people.
         seed : int
         plant : str
-            Plant they will walk on; imperfections that its body makes by itself are left out.
+            Plant they will walk on. One that has bodies makes a person's gait by itself; on one
+            without, their ``gait-ripple`` has the same sway and cadence.
 
         Raises
         ------
@@ -90,10 +102,7 @@ class Population(BaseModel):
         if count < 0 or seed < 0:
             what = f"count = {count}" if count < 0 else f"seed = {seed}"
             raise InputError(f"{what}: must not be negative")
-        if plant not in PLANTS.names():
-            PLANTS.get(plant)  # of one's own, or the message that it is not known
-        weights = np.cumsum([group.weight for group in self.groups])
-        laws = [_distributions(group.human) for group in self.groups]
+        has_gait = "gait" in takes(plant)
         wrappers: dict[str, Callable[..., Imperfection]] = {
             item["name"]: IMPERFECTIONS.get(item["name"])
             for group in self.groups
@@ -102,27 +111,43 @@ class Population(BaseModel):
         people = []
         for sequence in np.random.SeedSequence(seed).spawn(count):
             rng = np.random.default_rng(sequence)
-            index = int(np.searchsorted(weights, rng.random() * weights[-1], side="right"))
-            drawn = _drawn(self.groups[index].human, laws[index], rng)
-            drawn["imperfections"] = [
+            human = _human(_one_of(self.groups, rng), rng)
+            human["imperfections"] = [
                 item
-                for item in drawn["imperfections"]
+                for item in human["imperfections"]
                 if not unsuited(
                     wrappers[item["name"]](OpenLoopHuman(), **item.get("parameters", {})),
                     plant,
                     _RATES.period,
                 )
             ]
-            people.append(human_model().model_validate(drawn))
+            kind = ""
+            traits: dict[str, dict[str, Any]] = {}
+            if self.people:
+                # Of their own, so that saying more of bodies changes nobody's mind.
+                rng = np.random.default_rng(sequence.spawn(1)[0])
+                chosen = _one_of(self.people, rng)
+                kind, traits = chosen.kind, chosen.draw(rng)
+            _strengthen(human, traits.pop("strength", {}))
+            arm = traits.pop("arm", {})
+            if not has_gait:
+                human["imperfections"] += _ripple(traits.get("gait", {}), arm, human)
+            if arm:
+                traits["walker"] = {f"hand_{name}": value for name, value in arm.items()}
+            people.append(Person(human_model().model_validate(human), traits, kind))
         return people
 
 
-def _drawn(
-    section: dict[str, Any], laws: dict[KeyPath, Distribution], rng: np.random.Generator
-) -> dict[str, Any]:
+def _one_of(among: Sequence[Any], rng: np.random.Generator) -> Any:
+    """Return one of several, each as likely as its weight says."""
+    weights = np.cumsum([each.weight for each in among])
+    return among[int(np.searchsorted(weights, rng.random() * weights[-1], side="right"))]
+
+
+def _human(group: Group, rng: np.random.Generator) -> dict[str, Any]:
     """Return a human section with every distribution drawn, in the order of the file."""
-    values = {path: law.at(rng.random()) for path, law in laws.items()}
-    human = _filled(section, values)
+    values = {path: law.at(rng.random()) for path, law in group.laws.items()}
+    human = filled(group.human, values)
     present = [
         item
         for item in human.get("imperfections") or []
@@ -131,141 +156,27 @@ def _drawn(
     return human | {"imperfections": present}
 
 
-def _distributions(section: Any) -> dict[KeyPath, Distribution]:
-    return {path: Distribution(**value) for path, value in _nodes(section, ())}
+def _strengthen(human: dict[str, Any], strength: dict[str, float]) -> None:
+    """Give a person's strength to their model, unless their group says how strong it is."""
+    if strength and "force_max" in parameter_names(HUMANS.get(human["name"])):
+        most = StrengthParameters(**strength)
+        human.setdefault("parameters", {}).setdefault("force_max", [most.forward, most.sideways])
 
 
-def _nodes(value: Any, path: KeyPath) -> Iterator[tuple[KeyPath, dict[str, Any]]]:
-    """Yield the path and the content of every distribution."""
-    if isinstance(value, dict) and KEY in value:
-        yield path, value
-    elif isinstance(value, dict | list):
-        for key, item in value.items() if isinstance(value, dict) else enumerate(value):
-            yield from _nodes(item, (*path, key))
-
-
-def _filled(section: dict[str, Any], values: dict[KeyPath, float]) -> dict[str, Any]:
-    """Return a copy of a section with values in the places of its distributions."""
-    human = deepcopy(section)
-    for path, value in values.items():
-        place: Any = human
-        for step in path[:-1]:
-            place = place[step]
-        place[path[-1]] = value
-    return human
-
-
-def population_library() -> dict[str, Path]:
-    """Return the populations that ship: file by name."""
-    folder = Path(str(files("cowalk.scenarios.populations")))
-    return {file.name.removesuffix(SUFFIX): file for file in sorted(folder.glob(f"*{SUFFIX}"))}
-
-
-def load_population(source: str | Path, *, trust: bool = False) -> Population:
-    """Return a population, everything in it checked.
-
-    Every distribution is tried at its smallest and at its largest value, the others at their
-    medians: each human so made must build.
-
-    Parameters
-    ----------
-    source : str or Path
-        Name of one that ships, or path of a YAML file.
-    trust : bool
-        Whether code that the file names, ``module:Class``, may be imported.
-
-    Raises
-    ------
-    InputError
-        If the file is not right, or names code and is not trusted: the first fault, in one line.
-    """
-    known = population_library()
-    what = "the name or the path of a population is expected"
-    require(isinstance(source, str | PathLike), "population", source, what)
-    file = known.get(str(source), Path(source))
-    if not file.is_file():
-        names = did_you_mean(str(source), list(known))
-        raise InputError(f"unknown population {str(source)!r}; {names}, or the path of a YAML file")
-    document = read_document(file)
-    if fault := untrusted(file, document, _code_named(document.data), trust):
-        raise InputError(f"{file}:{document.line(fault.path)}: {fault.message}")
-    population, problems = _check(document)
-    if problems or population is None:
-        first = min(problems, key=lambda problem: document.line(problem.path))
-        more = f" (+{len(problems) - 1} more)" if problems[1:] else ""
-        raise InputError(f"{file}:{document.line(first.path)}: {first.message}{more}")
-    return population
-
-
-def _code_named(data: Any) -> list[tuple[KeyPath, str]]:
-    groups = data.get("groups") if isinstance(data, dict) else None
-    return [
-        (("groups", index, *path), name)
-        for index, group in enumerate(groups if isinstance(groups, list) else [])
-        for path, name in code_named(group)
-    ]
-
-
-def _check(document: Document) -> tuple[Population | None, list[Fault]]:
-    data = document.data
-    if not isinstance(data, dict):
-        what = "this holds no population; it needs the keys name and groups"
-        return None, document.problems or [Fault((), what)]
-    groups = data.get("groups")
-    for group in groups if isinstance(groups, list) else []:
-        expand_names(group)
-    population, problems = validate(Population, data)
-    problems += document.problems
-    for index, group in enumerate(population.groups if population else ()):
-        at: KeyPath = ("groups", index, "human")
-        problems += [
-            Fault((*at, *problem.path), f"groups.{index}.{problem.message}")
-            for problem in _group_problems(group.human)
-        ]
-    return population, problems
-
-
-def _group_problems(section: dict[str, Any]) -> list[Fault]:
-    """Return what is wrong with a group's human, paths from its section on."""
-    laws: dict[KeyPath, Distribution] = {}
-    problems: list[Fault] = []
-    for path, node in _nodes(section, ()):
-        if path[-1:] in ((), ("name",)):
-            what = (
-                "a name is no number to draw; for several models, give each a group with a weight"
-            )
-            problems.append(Fault(path, f"{dotted(('human', *path))}: {what}"))
-            continue
-        law, faults = validate(Distribution, node, ("human", *path))
-        problems += [Fault(fault.path[1:], fault.message) for fault in faults]
-        if law is not None:
-            laws[path] = law
-    if problems:
-        return problems
-    medians = {path: law.at(0.5) for path, law in laws.items()}
-    trials: list[tuple[KeyPath, dict[KeyPath, float]]] = [((), medians)]
-    trials += [(path, medians | {path: end}) for path, law in laws.items() for end in law.ends]
-    for path, values in trials:
-        human = _filled(section, values)
-        for index, item in enumerate(human.get("imperfections") or []):
-            share = item.pop(PROBABILITY, 1.0) if isinstance(item, dict) else 1.0
-            if not (isinstance(share, int | float) and 0.0 <= share <= 1.0):
-                where = f"human.imperfections.{index}.{PROBABILITY}"
-                path = ("imperfections", index, PROBABILITY)
-                return [Fault(path, f"{where} = {share}: must lie in [0, 1]")]
-        found = _human_problems(human)
-        if found:
-            return [Fault(path or found[0].path[1:], found[0].message)]
-    return []
-
-
-def _human_problems(section: dict[str, Any]) -> list[Fault]:
-    """Return what keeps one human from being built, paths from ``human`` on."""
-    component, problems = validate(human_model(), section, ("human",))
-    if component is None:
-        return problems
-    try:
-        build_human(component, "unicycle", _RATES.period)
-    except InputError as error:
-        return [Fault(error.at, str(error))]
-    return []
+def _ripple(
+    gait: dict[str, Any], arm: dict[str, float], human: dict[str, Any]
+) -> list[dict[str, Any]]:
+    """Return the imperfection that has a person's sway, at the cadence of their own pace."""
+    how = GaitParameters(**gait)
+    if not how.enabled:
+        return []
+    usual: float = Scenario.model_fields["pace"].default
+    pace = (human.get("intention") or {}).get("pace") or usual
+    fore_aft, lateral = how.sway
+    parameters = {
+        "step_frequency": step_frequency(pace, how.step_frequency),
+        "fore_aft_sway": fore_aft,
+        "lateral_sway": lateral,
+        "arm_stiffness": ArmParameters(**arm).stiffness,
+    }
+    return [{"name": GAIT_RIPPLE, "parameters": parameters}]

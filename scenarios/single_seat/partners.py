@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from copy import deepcopy
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +14,9 @@ from cowalk.sim.basics.seats import SEATS
 from cowalk.sim.basics.validators import shown
 
 from ..files.schema import Scenario
-from ..people.population import Population, load_population
+from ..people.loading import load_population
+from ..people.person import with_person
+from ..people.population import Population
 from ..running.build import build_agents
 
 MOST = 2**32
@@ -82,13 +83,8 @@ class Partners:
             return self._agents[int(rng.integers(len(self._agents)))]
         seed, plant = int(rng.integers(MOST)), self._scenario.plant.name
         (person,) = self._population.draw(1, seed, plant)
-        wanted = self._scenario.human.intention
-        if "intention" in person.model_fields_set:
-            # How they like to walk is their own, where they want to go the scenario's.
-            own = person.intention
-            path, changes = own.path or wanted.path, own.changes or wanted.changes
-            wanted = replace(own, path=path, changes=changes)
-        return person.name, self._built(person.model_copy(update={"intention": wanted}))
+        section = with_person(self._scenario, person).human
+        return section.name, self._built(section)
 
     def _one(self, given: Any) -> tuple[str, Human | Automation]:
         section = getattr(self._scenario, self._seat)

@@ -12,7 +12,8 @@ from cowalk.agents import IMPERFECTIONS
 from cowalk.scenarios.files.assembling import build_human
 from cowalk.scenarios.files.loading import load
 from cowalk.scenarios.files.schema import HumanComponent
-from cowalk.scenarios.people.population import load_population
+from cowalk.scenarios.people.loading import load_population
+from cowalk.scenarios.people.person import Person
 from cowalk.scenarios.people.responses import answer, fixed_points, push, settled_stubbornness
 from cowalk.scenarios.studies import human_pictures
 from cowalk.scenarios.studies.human_table import compare_humans, estimate, row, write_table
@@ -28,14 +29,20 @@ def built(name, **parameters):
 def test_sample_prints_what_the_population_draws(cowalk):
     code, out, _ = cowalk("humans", "sample", "uncertain", "-n", "3", "--seed", "7", "--json")
     assert code == 0
-    people = [HumanComponent.model_validate(person) for person in json.loads(out)["humans"]]
+    people = [
+        Person(HumanComponent.model_validate(each.pop("human")), **each)
+        for each in json.loads(out)["people"]
+    ]
     assert people == load_population("uncertain").draw(3, seed=7)
     code, out, _ = cowalk("humans", "sample", "uncertain", "-n", "3", "--seed", "7")
     assert code == 0
-    assert all(person.name in out for person in people)
+    for person in people:
+        assert person.human.name in out
+        assert person.kind in out
+        assert f"height {person.plant['body']['height']:.3g}" in " ".join(out.split())
 
 
-def test_people_for_a_plant_whose_body_walks_are_drawn_without_gait(cowalk):
+def test_people_for_a_plant_whose_body_walks_are_drawn_without_ripple(cowalk):
     for plant, there in (("unicycle", True), ("bullet", False)):
         code, out, _ = cowalk("humans", "sample", "determined", "-n", "2", "--plant", plant)
         assert (code, "gait-ripple" in out) == (0, there)
