@@ -12,6 +12,7 @@ from ..files.parts import kind_of_part
 from .changes import Changes, Trust, blamed, changing, load_changed, option
 from .listing import list_parts
 from .output import PASSED, Json, emit_json, emit_table, progress_bar
+from .passing import who_passes
 
 
 def register(app: typer.Typer) -> None:
@@ -47,6 +48,15 @@ def register(app: typer.Typer) -> None:
             "  cowalk humans table --write docs/humans.md"
         )
     )(changing(table, plant="unicycle"))
+    humans.command(
+        "pass",
+        epilog=(
+            "\b\nExamples:\n"
+            "  cowalk humans pass puddle\n"
+            "  cowalk humans pass doorway --population frail-and-slow -n 100 --plant unicycle\n"
+            "  cowalk humans pass puddle --against always-yields --against never-yields --json"
+        ),
+    )(changing(who_passes))
     app.add_typer(humans, name="humans")
 
 

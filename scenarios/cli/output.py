@@ -68,6 +68,14 @@ def two_digits(value: float) -> str:
     return f"{float(f'{value:.2g}'):g}"
 
 
+def interval(found: tuple[float, float, float] | None) -> str:
+    """Return a value with its interval as text: ``0.25 [0.14, 0.40]``; a dash for none."""
+    if found is None:
+        return "-"
+    value, low, high = found
+    return f"{value:.2f} [{low:.2f}, {high:.2f}]"
+
+
 @contextmanager
 def progress_bar(what: str) -> Iterator[Callable[[int, int], None]]:
     """Yield a function of (done, total) that shows progress on standard error.
