@@ -8,8 +8,8 @@ from cowalk.sim.basics.path import Path
 from cowalk.sim.basics.rates import Rates
 from cowalk.sim.body.anthropometry import BodyParameters, yaw_inertia
 from cowalk.sim.body.walker import Legs, WalkerParameters, legs_of
-from cowalk.sim.pair import stability
 from cowalk.sim.bullet.plant import BulletPlant
+from cowalk.sim.pair import stability
 from cowalk.sim.world.world import World
 
 WORLD = World(Path(((0, 0), (60, 0))))
