@@ -246,7 +246,7 @@ ROWS = {
         number="at_station?",
         thing="path?",
     ),
-    OpenLoopHuman: row({}, rows="profile", pair_of_positive="force_max", positive="gain"),
+    OpenLoopHuman: row({}, rows="profile", pair_of_positive="force_max"),
     RecordedHuman: row(
         {"file": FILE},
         text="file",
@@ -256,7 +256,7 @@ ROWS = {
         not_negative="start",
         number="scale",
         pair_of_positive="force_max",
-        positive="gain rate?",
+        positive="rate?",
     ),
     Columns: row({}, text="time fx fy fz?"),
     RecordingSensor: row({}, not_negative="zero", triple="signs rpy"),

@@ -19,24 +19,47 @@ from cowalk.sim.basics.situation import Bounds, Situation
 __all__ = ["Automation", "Belief", "Bounds", "Human", "Observation", "Situation", "Truth"]
 
 
+def _unknown() -> Array:
+    return np.full(2, np.nan)
+
+
+_UNLIMITED = np.full(2, np.inf)
+_UNLIMITED.flags.writeable = False
+
+
 @dataclass(slots=True)
 class Truth:
-    """What a human model wants: known to the scoring, never to the automation.
+    """What a human model wants, and whose force it is: for the scoring, never the automation.
+
+    Where strength and gain are given, the force is that of the common definition
+    (`cowalk.agents.humans.laws.demand`), ``delay`` later and no larger than ``limit``: only then
+    can be told in which rows stubbornness is readable from force.
 
     Attributes
     ----------
     wish : ndarray, shape (..., 2)
-        Twist that the human would have, m/s and rad/s.
+        Twist that the human would have, m/s and rad/s, within the situation's bounds; NaN where
+        nobody knows it.
     stubbornness : ndarray, shape (..., 2)
-        Share of the disagreement that the human insists on, per dimension, in [0, 1].
+        Share of the disagreement that the human insists on, per dimension, in [0, 1]; NaN where
+        nobody knows it.
+    strength : ndarray, shape (..., 2)
+        F_max, the largest force of the person forward and sideways, N; NaN where unknown.
+    gain : float or ndarray, shape (...)
+        kappa, 1: the share of p_ub that must be missing for full force is 1/kappa; NaN where
+        unknown.
+    limit : ndarray, shape (..., 2)
+        The lowest limit of the force now, N: what fatigue has left, what the hand dares.
+    delay : float or ndarray, shape (...)
+        Reaction time after which the force follows wish and stubbornness, s.
     """
 
     wish: Array
     stubbornness: Array
-
-
-def _unknown() -> Array:
-    return np.full(2, np.nan)
+    strength: Array = field(default_factory=_unknown)
+    gain: float | Array = np.nan
+    limit: Array = field(default_factory=lambda: _UNLIMITED)
+    delay: float | Array = 0.0
 
 
 @dataclass(slots=True)

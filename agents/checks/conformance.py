@@ -26,13 +26,16 @@ from cowalk.estimation.checks.stream import SITUATION
 from cowalk.sim.basics.motion import Array
 
 from ..basics.protocols import Truth
+from ..imperfections.wrapper import Imperfection
 from .rules import (
     access_hint,
     belief_faults,
     faint_faults,
     force_faults,
-    insistence,
+    insisted,
+    law_faults,
     require_pair,
+    stated,
     truth_faults,
     twist_faults,
 )
@@ -53,7 +56,8 @@ def check_human(human: Any) -> None:
 
     It is walked for 8 s beside a made-up base that sets off from rest, turns, pushes, halts,
     loses samples, and passes obstacles. Checked are: signatures, shapes, finite and plausible
-    forces, truth within [0, 1], repetition after a reset with an equal generator, another
+    forces, a wish within the bounds, stubbornness within [0, 1] and behind the force where strength
+    and gain are stated, repetition after a reset with an equal generator, another
     start of the generators it keeps after a reset with another one, global random state and
     observations left alone, and a force that answers the base's motion by 1 mN or more, the
     measured force being the same, unless the class says ``closed_loop = False``.
@@ -173,7 +177,7 @@ def _walk(part: Any, seat: _Seat, sizes: tuple[float, float], found: dict[str, N
     ``sizes`` scale how much the base moves to and fro, and how hard it is pushed.
     """
     kept, out = Kept(), []
-    insisted = 0.0
+    most, meant, delay = 0.0, [], 0.0
     reports, report = seat.reports(part), seat.report
     attempt("reset fails at step 0", _reset, part, 7)
     for step, seen in enumerate(observations(*sizes)):
@@ -188,9 +192,13 @@ def _walk(part: Any, seat: _Seat, sizes: tuple[float, float], found: dict[str, N
         said = attempt(f"{report} fails at step {step}", getattr(part, report), hint=access_hint)
         found |= dict.fromkeys(reports(said))
         if isinstance(said, Truth):
-            insisted = max(insisted, insistence(said, twist))
+            most = max(most, insisted(said, twist))
+            meant.append(stated(said, twist))
+            delay = float(said.delay) / SITUATION.period
     found |= dict.fromkeys(kept.faults())
     walked = np.array(out)
     if report == "truth":
-        found |= dict.fromkeys(faint_faults(walked, insisted))
+        found |= dict.fromkeys(faint_faults(walked, most))
+        if not isinstance(part, Imperfection):  # which changes the force, and not the truth
+            found |= dict.fromkeys(law_faults(walked, np.array(meant), delay))
     return walked

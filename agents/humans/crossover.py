@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from collections import deque
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from cowalk.sim.basics.observation import Observation
 from cowalk.sim.basics.situation import Situation
 from cowalk.sim.basics.validators import Range, require_ranges
 
-from ..basics.elementwise import Value
-from .intention.intention import Outlook
-from .laws.demand import STEERING
-from .laws.linear import LinearHuman
+from ..basics.elementwise import Elementwise, Value
+from .laws.demand import STEERING, DemandingHuman
 
 FREQUENCY: Range = (1e-3, 100.0, "rad/s")
 DELAY: Range = (0.0, 5.0, "s")
@@ -22,7 +19,7 @@ DELAY: Range = (0.0, 5.0, "s")
 
 
 @dataclass(kw_only=True)
-class CrossoverHuman(LinearHuman):
+class CrossoverHuman(DemandingHuman):
     """Pushes so that Y_p Y_c = omega_c e^(-j omega delay) / (j omega).
 
     People adjust to what they steer until the loop around them crosses over like this (McRuer
@@ -31,12 +28,9 @@ class CrossoverHuman(LinearHuman):
 
         F(t) = (omega_c/K) (p_I - p_executed)(t - delay),
 
-    p_I being what the intention wants.
-
-    `truth` reports the wish p(t) + (p_I - p)(t - delay), at which this human would not push now,
-    not p_I: just after p passes p_I the force still points the other way, and no s in [0, 1]
-    gives that force with the wish p_I. The two are the same once p has stood still for a delay
-    (docs/humans.md says what that means for scoring).
+    p_I being what the intention wants. By the common definition that is the wish p_I, held with
+    s = omega_c/(gain steering), by a person whose force comes a delay later: `truth` says all
+    three. Where s would exceed 1 they insist fully, and push by this law all the same.
 
     Parameters
     ----------
@@ -69,16 +63,16 @@ class CrossoverHuman(LinearHuman):
         """See `Human.reset`."""
         super().reset(rng, situation)
         steps = round(self.delay / self.period)
-        self._missing: deque[tuple[Value, Value]] = deque([(0.0, 0.0)] * (steps + 1), steps + 1)
+        past: list[Value] = [0.0] * (steps + 1)
+        self._missing = [deque(past, steps + 1), deque(past, steps + 1)]
+        self._share = self.crossover_frequency / (self.gain * self.steering)
+        self._truth = replace(self._truth, delay=steps * self.period)
 
-    def slope(self, i: int) -> Value:
-        """See `LinearHuman.slope`: omega_c/K."""
-        return self.crossover_frequency * self.force_max[i] / (self.steering * self._upper[i])
+    def stubbornness(self, m: Elementwise, i: int, disagreement: Value) -> Value:
+        """See `DemandingHuman.stubbornness`: omega_c/(gain steering), at most 1."""
+        self._missing[i].append(disagreement)
+        return m.minimum(self._share, 1.0)
 
-    def content(self, outlook: Outlook, observation: Observation) -> tuple[Value, Value]:
-        """See `LinearHuman.content`: what was missing a delay ago is wanted on top of now."""
-        v, omega = self._executed
-        want_v, want_omega = self._intention.twist(outlook)
-        self._missing.append((want_v - v, want_omega - omega))
-        missing_v, missing_omega = self._missing[0]
-        return v + missing_v, omega + missing_omega
+    def push(self, m: Elementwise, i: int, demand: Value) -> Value:
+        """See `DemandingHuman.push`: for what was missing a delay ago."""
+        return self._share * self._missing[i][0]

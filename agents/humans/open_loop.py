@@ -11,10 +11,10 @@ from cowalk.sim.basics.lists import require_pairs, require_rows
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.observation import Observation
 from cowalk.sim.basics.situation import Situation
-from cowalk.sim.basics.validators import Range, require, require_ranges
+from cowalk.sim.basics.validators import Range, require
 
 from ..basics.protocols import Truth
-from .laws.demand import FORCE_MAX, GAIN, Pair, prescribed_truth
+from .laws.demand import FORCE_MAX, Pair, strength, unknown
 
 SINCE: Range = (0.0, 86400.0, "s")
 PUSH: Range = (-1e4, 1e4, "N")
@@ -25,34 +25,29 @@ PUSH: Range = (-1e4, 1e4, "N")
 class OpenLoopHuman:
     """Exerts a force that is a step function of time (arXiv 2407.17275, section IV).
 
-    Nothing in a prescribed force tells what its author wanted: its truth is that of
-    `cowalk.agents.humans.laws.demand.prescribed_truth`.
+    Nothing in a prescribed force tells what its author wanted: wish and stubbornness are NaN.
+    Insistence, the share of their strength, is known.
 
     Parameters
     ----------
     profile : sequence of (time, fx, fy)
         From each time (s, rising) on, this force (N, base axes) is exerted; 0 N before.
     force_max : (float, float)
-        Force forward and sideways that counts as full stubbornness, N.
-    gain : float
-        As in the common definition, 1.
+        Largest force forward and sideways of the person, N: what insistence refers to.
 
     Raises
     ------
     InputError
-        If the times do not rise, or a number is outside of `SINCE`, `PUSH` or the ranges of the
-        common definition.
+        If the times do not rise, or a number is outside of `SINCE`, `PUSH` or `FORCE_MAX`.
     """
 
     closed_loop: ClassVar[bool] = False
 
     profile: tuple[tuple[float, float, float], ...] = ((0.0, 0.0, 0.0),)
     force_max: Pair = (7.5, 7.5)
-    gain: float = 2.0
 
     def __post_init__(self) -> None:
         require_pairs(self, {"force_max": FORCE_MAX})
-        require_ranges(self, {"gain": GAIN}, lanes=True)
         what = "a list of (time, fx, fy) is expected"
         require_rows(self, "profile", (SINCE, PUSH, PUSH), 1, what)
         table = np.asarray(self.profile, dtype=float)
@@ -64,17 +59,15 @@ class OpenLoopHuman:
 
     def reset(self, rng: np.random.Generator, situation: Situation) -> None:
         """See `Human.reset`."""
-        self._upper = np.asarray(situation.bounds.upper, dtype=float)
-        self._truth = Truth(np.zeros(2), np.zeros(2))
+        self._strength = strength(self.force_max)
+        self._truth = unknown(np.zeros(2), self._strength)
 
     def act(self, observation: Observation) -> Array:
         """See `Human.act`."""
         # Control times are sums of periods: 12 s must count as 12 s in spite of rounding.
         now = observation["time"][..., 0] + 1e-9
         force = self._forces[np.searchsorted(self._times, now, side="right")]
-        self._truth = prescribed_truth(
-            force, observation["twist"], self._upper, self.force_max, self.gain
-        )
+        self._truth = unknown(observation["twist"], self._strength)
         return np.asarray(force)
 
     def truth(self) -> Truth:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar, Literal
 
 import numpy as np
@@ -14,6 +14,8 @@ from cowalk.sim.basics.situation import Situation
 from cowalk.sim.basics.validators import Range, require_choices, require_ranges
 
 from ..basics.elementwise import Value, elementwise
+from ..basics.protocols import Truth
+from .force_limit import per_direction
 from .wrapper import Imperfection
 
 RATES = {
@@ -73,6 +75,7 @@ class Fatigue(Imperfection):
         self._ratio = fatigue / recovery
         self._change = -math.expm1(-recovery * situation.period)
         self.fatigued: Value = 0.0
+        self._limit = np.full(2, np.inf)
 
     def distort(self, force: Array, observation: Observation) -> Array:
         """See `Imperfection.distort`."""
@@ -85,4 +88,11 @@ class Fatigue(Imperfection):
         fatigued = self.fatigued + self._change * (settled - self.fatigued)
         self.fatigued = m.minimum(fatigued, 1.0)
         share = m.minimum(able / m.maximum(asked, 1e-12), 1.0)
-        return m.pair(force, fx * share, fy * share)
+        given = m.pair(force, fx * share, fy * share)
+        self._limit = per_direction(m, given, share, self.strength * able)
+        return given
+
+    def truth(self) -> Truth:
+        """See `Human.truth`: that of the human inside, limited to the force that is left."""
+        truth = self.human.truth()
+        return replace(truth, limit=np.minimum(truth.limit, self._limit))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from cowalk.sim.basics.observation import Observation
 from cowalk.sim.basics.situation import Situation
 from cowalk.sim.basics.validators import Range, require_ranges
 
+from ..basics.protocols import Truth
 from .wrapper import Imperfection
 
 DELAY: Range = (0.0, 5.0, "s")
@@ -63,3 +64,8 @@ class ReactionDelay(Imperfection):
         if not self._share:
             return past[-2]
         return (1.0 - self._share) * past[-2] + self._share * past[-1]
+
+    def truth(self) -> Truth:
+        """See `Human.truth`: that of the human inside, answered so much later."""
+        truth = self.human.truth()
+        return replace(truth, delay=truth.delay + self.delay)

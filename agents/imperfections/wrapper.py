@@ -21,8 +21,9 @@ class Imperfection(ABC):
     """A human whose hand does not do exactly what the human inside asks of it.
 
     Imperfections nest in any order; the first in a scenario's list is the innermost. They
-    change what is felt or what the hand does, never the wish: the truth is that of the human
-    inside. Each draws from a generator of its own, spawned from the human's, so that adding
+    change what is felt or what the hand does, never wish, stubbornness or strength: those are of
+    the human inside. One that delays or limits the force says so in its truth's ``delay`` or
+    ``limit``. Each draws from a generator of its own, spawned from the human's, so that adding
     one leaves the numbers that the human inside draws as they are.
 
     Parameters

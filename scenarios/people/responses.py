@@ -117,7 +117,8 @@ def _steps(
         )
         truth = human.truth()
         yield felt, truth.stubbornness, np.abs(truth.wish - twist) / upper
-        wish = np.clip(truth.wish, lower, upper)
+        # A force that is prescribed has no wish: there is nothing to concede.
+        wish = np.where(np.isnan(truth.wish), ROBOT, np.clip(truth.wish, lower, upper))
         twist = twist + follow * (ROBOT + share * (wish - ROBOT) - twist)
         pose = compose(pose, arc_displacement(twist, SITUATION.period))
         time += 1
@@ -189,7 +190,8 @@ def draws(human: Human) -> bool:
     """Return whether another generator makes a human act or want otherwise."""
     first, second = (answer(human, 0.5, 10.0, seed=seed) for seed in (0, 1))
     same = np.array_equal(first.force, second.force)
-    return not (same and np.array_equal(first.stubbornness, second.stubbornness))
+    shares = first.stubbornness, second.stubbornness
+    return not (same and np.array_equal(*shares, equal_nan=True))
 
 
 def fixed_points(

@@ -10,6 +10,7 @@ import numpy as np
 
 from cowalk.agents.basics.protocols import Belief, Truth
 from cowalk.sim.basics.errors import PartError
+from cowalk.sim.basics.motion import TwistBounds
 from cowalk.sim.basics.validators import said
 
 _FORCE = "the force [fx, fy] in N"
@@ -38,18 +39,42 @@ def require_twist(automation: object, answer: Any) -> None:
     _finite_pair(automation, "act", answer, _TWIST)
 
 
-def require_truth(human: object, truth: Any) -> None:
-    """Refuse what is no truth of a human.
+def require_truth(human: object, truth: Any, bounds: TwistBounds) -> None:
+    """Refuse what is no truth of a human; NaN is unknown, and right.
 
     Raises
     ------
     PartError
-        If it is no `Truth`, or one of its arrays is not two finite numbers.
+        If it is no `Truth`, one of its arrays is not two numbers, the wish lies outside of the
+        bounds or the stubbornness outside of [0, 1].
     """
     if not isinstance(truth, Truth):
         raise PartError(human, f"truth() gave {said(truth)}; it must be a Truth")
-    _finite_pair(human, "truth", truth.stubbornness, "the stubbornness [v, omega]")
-    _finite_pair(human, "truth", truth.wish, "the wish [v, omega] in m/s and rad/s")
+    for name in ("stubbornness", "wish", "strength", "limit"):
+        value = getattr(truth, name)
+        if not isinstance(value, np.ndarray) or value.shape != (2,):
+            raise PartError(human, f"truth().{name} is {said(value)}; it must be {_PAIR}")
+    for name in ("gain", "delay"):
+        value = getattr(truth, name)
+        if not isinstance(value, float | int | np.number | np.ndarray) or np.ndim(value):
+            raise PartError(human, f"truth().{name} is {said(value)}; it must be one number")
+    lows, highs = bounds.lower, bounds.upper
+    for values, unit, name, low, high in (
+        (truth.wish.tolist(), _UNITS, "wish", lows, highs),
+        (truth.stubbornness.tolist(), ("", ""), "stubbornness", (0.0, 0.0), (1.0, 1.0)),
+    ):
+        for i, value in enumerate(values):
+            if value < low[i] - _ROUNDING or value > high[i] + _ROUNDING:
+                raise PartError(
+                    human,
+                    f"truth().{name} in {_DIMENSIONS[i]} is {value:.4g}{unit[i]}; it must be "
+                    f"from {low[i]:g} to {high[i]:g}{unit[i]}: what is asked for beyond is "
+                    "insistence, clip it",
+                )
+
+
+_DIMENSIONS, _UNITS = ("v", "omega"), (" m/s", " rad/s")
+_ROUNDING = 1e-9
 
 
 def require_belief(automation: object, belief: Any, columns: Mapping[str, str]) -> None:

@@ -83,7 +83,8 @@ def run(
     wall_time = time.perf_counter() - started
     result = _result(scenario, episode.recorder.trace, end, error, wall_time)
     counted = {"sensor": episode.count.summary(), "reward": episode.earned.summary()}
-    result.summary |= {"contact": touched, **counted}
+    person = json_ready(episode.recorder.person)
+    result.summary |= {"contact": touched, "person": person, **counted}
     result.samples = episode.samples
     if len(result.trace):
         result.outlines = outlines(env)
@@ -158,11 +159,13 @@ class _Episode:
             self._acting = "human"
             force = human.act(observations["human"])
             require_force(human, force)
-            require_truth(human, human.truth())
+            truth = human.truth()
+            require_truth(human, truth, env.bounds)
             self._acting = "automation"
             twist = automation.act(observations["automation"])
             require_twist(automation, twist)
-            require_belief(automation, automation.belief(), columns)
+            belief = automation.belief()
+            require_belief(automation, belief, columns)
             self._acting = "plant"
             actions = {"human": force, "automation": twist}
             observations, rewards, _, _, self._infos = env.step(actions)
@@ -170,7 +173,7 @@ class _Episode:
             self.earned.add(env.reward_terms)
             if self.samples is not None:
                 self.samples.add(env)
-            record(rewards, self._infos)
+            record(rewards, self._infos, truth, belief)
             self._acting = "watcher"
             for watcher in self._watchers:
                 watcher.step(env, trace)

@@ -34,6 +34,12 @@ UNITS = {
     "true_stubbornness_omega": "1",
     "true_v": "m/s",
     "true_omega": "rad/s",
+    "true_demand_v": "1",
+    "true_demand_omega": "1",
+    "true_insistence_v": "1",
+    "true_insistence_omega": "1",
+    "identifiable_v": "1",
+    "identifiable_omega": "1",
     "est_stubbornness_v": "1",
     "est_stubbornness_omega": "1",
     "smoothed_stubbornness_v": "1",
@@ -74,8 +80,9 @@ what was measured averaged over it. `fx` and `fy` are the measured force in base
 wrench itself before the sensor, base axes, about the handle. `work` is what the human did to the
 base at the handle in the step, `wheel_...` what the command asks of the driven wheels, and
 `negotiated` is 1 in a step that began with a negotiation. `reward_SEAT_TERM` is what each term
-added to a seat's reward. Columns that an automation or its
-observer adds follow these.
+added to a seat's reward. `true_...` is the human's truth, NaN where nobody knows it,
+`identifiable_...` 1 where their stubbornness could be read from force. Columns that an
+automation or its observer adds follow these.
 """
 
 

@@ -68,6 +68,8 @@ def _least(column: Array) -> float:
 
 def _time_to_agreement(columns: Mapping[str, Array], period: float) -> float:
     """Return the time from the first disagreement to the first agreement that is held, s."""
+    if np.isnan(columns["true_omega"]).all():
+        return float("nan")  # of a wish that nobody knows nothing can be agreed
     apart = np.abs(columns["true_omega"] - columns["omega"]) > AGREEMENT
     if not apart.any():
         return 0.0

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from cowalk.agents.basics.protocols import Automation, Human
+from cowalk.agents.basics.protocols import Automation, Belief, Human, Truth
 from cowalk.sim.basics.validators import require_instance, require_part
 from cowalk.sim.env.env import CowalkEnv
 
@@ -45,21 +45,49 @@ class Recorder:
         """Columns that the automation and its observer add, and their units."""
         self.trace = Trace(all_columns(self.added))
         self._negotiations = 0
+        self._truth: Truth | None = None
 
-    def step(self, rewards: Mapping[str, float], infos: Mapping[str, Mapping[str, Any]]) -> None:
+    @property
+    def person(self) -> dict[str, Any]:
+        """Whose force it was, as the human said in the last step; NaN where nobody knows.
+
+        kappa as ``gain``, F_max forward and sideways as ``force_max`` (N), reaction time as
+        ``delay`` (s).
+        """
+        truth = self._truth
+        if truth is None:
+            return {"gain": math.nan, "force_max": [math.nan, math.nan], "delay": math.nan}
+        return {
+            "gain": float(truth.gain),
+            "force_max": truth.strength.tolist(),
+            "delay": float(truth.delay),
+        }
+
+    def step(
+        self,
+        rewards: Mapping[str, float],
+        infos: Mapping[str, Mapping[str, Any]],
+        truth: Truth | None = None,
+        belief: Belief | None = None,
+    ) -> None:
         """Add the row of the control step that `CowalkEnv.step` has just returned from.
 
         Parameters
         ----------
         rewards, infos : mapping of str to float, and to mapping
             What it returned, by seat.
+        truth, belief : Truth, Belief, optional
+            What human and automation said of the step, if they were asked already.
         """
-        belief = self._automation.belief()
+        truth = self._human.truth() if truth is None else truth
+        belief = self._automation.belief() if belief is None else belief
+        time = (len(self.trace) + 1) / self._env.rates.control
         row = dict.fromkeys(self.added, math.nan)
         row |= of_state(self._env)
-        row |= of_truth(self._human.truth())
+        row |= of_truth(truth, time, self._env)
         row |= of_belief(belief)
-        row["t"] = (len(self.trace) + 1) / self._env.rates.control
+        row["t"] = time
+        self._truth = truth
         row["clearance"] = infos["human"]["clearance"]
         row["negotiated"] = float(belief.negotiation > self._negotiations)
         row["reward_human"], row["reward_automation"] = rewards["human"], rewards["automation"]

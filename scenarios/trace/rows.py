@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cowalk.agents.basics.protocols import Belief, Truth
+from cowalk.estimation.scores.rows import demand, identifiable, insistence
 from cowalk.sim.env.env import CowalkEnv
 from cowalk.sim.robot.wheels import wheel_speeds
 
@@ -49,9 +50,40 @@ _STATE = (
 )
 
 
-def of_truth(truth: Truth) -> dict[str, float]:
-    """Return what a row says of what the human wants."""
-    return pair("true_stubbornness", truth.stubbornness) | pair("true", truth.wish)
+def of_truth(truth: Truth, time: float, env: CowalkEnv) -> dict[str, float]:
+    """Return what a row says of what the human wants, and what can be known of it.
+
+    Parameters
+    ----------
+    truth : Truth
+    time : float
+        Of the row, s.
+    env : CowalkEnv
+        After that control step.
+    """
+    force, twist_before, upper = env.applied[0], env.felt, env.bounds.upper
+    asked = demand(truth.stubbornness, truth.wish, twist_before, upper)
+    # What the definition asks for counts as well: noise may take a force that is cut below its
+    # limit again.
+    meant = np.maximum(np.abs(force), np.abs(truth.strength * truth.gain * asked))
+    readable = identifiable(
+        time,
+        truth.stubbornness,
+        truth.wish,
+        twist_before,
+        meant,
+        lower=env.bounds.lower,
+        upper=upper,
+        gain=truth.gain,
+        force_limit=np.minimum(np.minimum(truth.strength, truth.limit), env.force_limit),
+    )
+    return {
+        **pair("true_stubbornness", truth.stubbornness),
+        **pair("true", truth.wish),
+        **pair("true_demand", asked),
+        **pair("true_insistence", insistence(force, truth.strength)),
+        **pair("identifiable", readable.astype(float)),
+    }
 
 
 def of_belief(belief: Belief) -> dict[str, float]:

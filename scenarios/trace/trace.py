@@ -17,10 +17,11 @@ from .columns import UNITS
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-FORMAT = 2
+FORMAT = 3
 """Number of the form in which traces and run folders are written.
 
-1 had no number, and ended with the column ``clearance``.
+1 had no number, and ended with the column ``clearance``. 2 invented wish and stubbornness where
+a force was prescribed or recorded, and did not say in which rows stubbornness can be read.
 """
 RENAMED: dict[str, str] = {}
 """Columns of earlier forms that have another name now."""
@@ -132,7 +133,7 @@ class Trace:
         for name in columns:
             if name in RENAMED:
                 raise InputError(f"{file}: column {name!r} is called {RENAMED[name]!r} now")
-        later = _LATER if form < FORMAT else frozenset()
+        later = {name for since, names in _LATER.items() if form < since for name in names}
         missing = [name for name in UNITS if name not in {*columns, *later}]
         if missing:
             raise InputError(f"{file}: not a trace: it has no column {', '.join(missing)}")
@@ -145,5 +146,12 @@ class Trace:
 
 
 _AFTER = list(UNITS).index("clearance") + 1
-_LATER = frozenset(list(UNITS)[_AFTER:]) | {name for name in UNITS if name.startswith("sensor_")}
-"""Columns that files of form 1 may lack."""
+_LATER = {
+    2: (*list(UNITS)[_AFTER:], *(name for name in UNITS if name.startswith("sensor_"))),
+    3: tuple(
+        name
+        for name in UNITS
+        if name.startswith(("true_demand", "true_insistence", "identifiable"))
+    ),
+}
+"""Columns by the form that they came with: files of an earlier one may lack them."""

@@ -120,6 +120,7 @@ class CowalkEnv(WatchedEnv):
             world, plant, own, rates, sensor, bounds, pace, duration, force_limit, earned
         )
         self.world, self.rates, self.bounds, self.pace = world, rates, bounds, pace
+        self.force_limit = force_limit
         self.steps_per_episode = given.steps
         modes = self.metadata["render_modes"]
         if not (render_mode is None or (isinstance(render_mode, str) and render_mode in modes)):
@@ -143,6 +144,8 @@ class CowalkEnv(WatchedEnv):
         self._started = self._closed = False
         self.applied = (0.0, 0.0), (0.0, 0.0)
         """Force on the base (N, base axes) and twist (m/s, rad/s) of the last step, clipped."""
+        self.felt = 0.0, 0.0
+        """Executed twist that both seats saw before the last step, m/s and rad/s."""
         self._terms = NO_TERMS
 
     def observation_space(self, agent: str) -> Dict:
@@ -212,7 +215,7 @@ class CowalkEnv(WatchedEnv):
             raise SimulationError(CLOSED if self._closed else what)
         force, twist = self._actions.of_both(actions, self._time)
         force = as_pushed(force, self._from_behind)
-        self.applied = force, twist
+        self.applied, self.felt = (force, twist), self._state.twist
         state = self._state = self._plant.step(twist, force)
         self._step_count += 1
         self._relative = self.world.path.relative(*state.pose)

@@ -18,6 +18,7 @@ from .snapshot import Snapshot, matching
 CHANGING = (
     "agents",
     "applied",
+    "felt",
     "_step_count",
     "_sensor",
     "_generator",

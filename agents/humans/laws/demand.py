@@ -6,13 +6,14 @@ proportion to what is missing,
 
     F = F_max sat(gain * s * (p_H - p_executed) / p_ub), per dimension.
 
-s = 0 lets go, s = 1 insists fully. Models differ in how s and p_H move.
+s = 0 lets go, s = 1 insists fully. p_H lies within the bounds: what a human asks for beyond
+them is insistence, not a wish. Models differ in how s and p_H move.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -82,16 +83,35 @@ class DemandingHuman(ABC):
         """
 
     def wish(self, outlook: Outlook, observation: Observation) -> tuple[Value, Value]:
-        """Return p_H: the v and omega wanted, m/s and rad/s. The intention's, unless overridden."""
+        """Return the v and omega wanted, m/s and rad/s: the intention's, unless overridden.
+
+        p_H is what of it lies within the bounds.
+        """
         return self._intention.twist(outlook)
+
+    def push(self, m: Elementwise, i: int, demand: Value) -> Value:
+        """Return what is pushed for in one dimension: s (p_H - p_executed)/p_ub.
+
+        Overridden by those whose own law goes on where that ends, and by those who are late.
+
+        Parameters
+        ----------
+        m, i
+            See `stubbornness`.
+        demand : float, or ndarray of shape (...)
+            s (p_H - p_executed)/p_ub now.
+        """
+        return demand
 
     def reset(self, rng: np.random.Generator, situation: Situation) -> None:
         """See `Human.reset`."""
         self.period = situation.period
+        self._lower = components(situation.bounds.lower)
         self._upper = components(situation.bounds.upper)
         self._executed: tuple[Value, Value] = (0.0, 0.0)
         self._intention = Intention(self.intention, situation)
-        self._truth = Truth(np.zeros(2), np.zeros(2))
+        self._strength = strength(self.force_max)
+        self._truth = unknown(np.zeros(2), self._strength, self.gain)
 
     def act(self, observation: Observation) -> Array:
         """See `Human.act`."""
@@ -99,15 +119,23 @@ class DemandingHuman(ABC):
         m, twist = outlook.m, observation["twist"]
         v, omega = self._executed = tuple(m.parts(twist))
         wish_v, wish_omega = self.wish(outlook, observation)
+        wish_v = m.clip(wish_v, self._lower[0], self._upper[0])
+        wish_omega = m.clip(wish_omega, self._lower[1], self._upper[1])
         missing_v = (wish_v - v) / self._upper[0]
         missing_omega = (wish_omega - omega) / self._upper[1]
         share_v = self.stubbornness(m, 0, missing_v)
         share_omega = self.stubbornness(m, 1, missing_omega)
-        self._truth = Truth(m.pair(twist, wish_v, wish_omega), m.pair(twist, share_v, share_omega))
+        self._truth = replace(
+            self._truth,
+            wish=m.pair(twist, wish_v, wish_omega),
+            stubbornness=m.pair(twist, share_v, share_omega),
+        )
+        push_v = self.push(m, 0, share_v * missing_v)
+        push_omega = self.push(m, 1, share_omega * missing_omega)
         return m.pair(
             twist,
-            self.force_max[0] * m.clip(self.gain * share_v * missing_v, -1.0, 1.0),
-            self.force_max[1] * m.clip(self.gain * share_omega * missing_omega, -1.0, 1.0),
+            self.force_max[0] * m.clip(self.gain * push_v, -1.0, 1.0),
+            self.force_max[1] * m.clip(self.gain * push_omega, -1.0, 1.0),
         )
 
     def truth(self) -> Truth:
@@ -115,22 +143,21 @@ class DemandingHuman(ABC):
         return self._truth
 
 
-def prescribed_truth(
-    force: Array, twist: Array, upper: Array, force_max: Pair, gain: float
-) -> Truth:
-    """Return the truth of a human whose force is given and tells no wish.
+def strength(force_max: tuple[Value, Value]) -> Array:
+    """Return F_max forward and sideways, N, shape (..., 2)."""
+    return np.stack(np.broadcast_arrays(*force_max), axis=-1).astype(float)
 
-    It is that of the common definition in a disagreement as large as the force can express:
-    s = |F|/F_max, and p_H lies p_ub/gain beyond the executed twist, on the force's side.
+
+def unknown(twist: Array, strength: Array, gain: Value = np.nan) -> Truth:
+    """Return the truth of somebody of whom neither wish nor stubbornness is known.
 
     Parameters
     ----------
-    force, twist : ndarray, shape (..., 2)
-        N; executed, m/s and rad/s.
-    upper : ndarray, shape (..., 2)
-        Upper bounds of the twist, m/s and rad/s.
-    force_max, gain
-        See `DemandingHuman`.
+    twist : ndarray, shape (..., 2)
+        Executed; one human or a batch.
+    strength : ndarray, shape (..., 2)
+        N.
+    gain : float or ndarray, shape (...)
+        kappa, 1.
     """
-    share = np.minimum(np.abs(force) / force_max, 1.0)
-    return Truth(twist + np.sign(force) * upper / gain, share)
+    return Truth(np.full_like(twist, np.nan), np.full_like(twist, np.nan), strength, gain)

@@ -6,9 +6,10 @@ the distance from it, F = D (p_0 - p_executed). Beside the common definition,
     F = F_max sat(gain * s * (p_H - p_executed) / p_ub),
 
 that is a human with p_H = p_0 and s = D p_ub / (gain * F_max), as long as p_0 is a twist that
-the bounds allow and s is at most 1. A wish beyond the bounds is the wish for the bound, held
-so much more stubbornly that the force is the same; who would push harder than s = 1 allows
-insists fully, on a wish that lies as much farther off (docs/humans.md).
+the bounds allow and s is at most 1. A p_0 beyond the bounds is the wish for the bound, held so
+much more stubbornly that the force is the same. Who pushes harder than s = 1 allows insists
+fully: the force goes on by their own law, and what it has beyond the definition is insistence,
+neither wish nor stubbornness (docs/humans.md).
 """
 
 from __future__ import annotations
@@ -16,12 +17,9 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import dataclass
 
-import numpy as np
-
 from cowalk.sim.basics.observation import Observation
-from cowalk.sim.basics.situation import Situation
 
-from ...basics.elementwise import Elementwise, Value, components
+from ...basics.elementwise import Elementwise, Value
 from ..intention.intention import Outlook
 from .demand import DemandingHuman
 
@@ -44,31 +42,29 @@ class LinearHuman(DemandingHuman):
     def slope(self, i: int) -> Value:
         """Return D, force for each unit of v (i = 0, N s/m) or of omega (i = 1, N s/rad)."""
 
-    def reset(self, rng: np.random.Generator, situation: Situation) -> None:
-        """See `Human.reset`."""
-        super().reset(rng, situation)
-        self._lower = components(situation.bounds.lower)
-        self._share: list[Value] = [0.0, 0.0]
-
     def wish(self, outlook: Outlook, observation: Observation) -> tuple[Value, Value]:
-        """See `DemandingHuman.wish`."""
-        v, omega = self.content(outlook, observation)
-        return self._equivalent(outlook.m, 0, v), self._equivalent(outlook.m, 1, omega)
+        """See `DemandingHuman.wish`: p_0."""
+        self._content = self.content(outlook, observation)
+        return self._content
 
     def stubbornness(self, m: Elementwise, i: int, disagreement: Value) -> Value:
-        """See `DemandingHuman.stubbornness`."""
-        return self._share[i]
+        """See `DemandingHuman.stubbornness`: of the same force by the definition, at most 1."""
+        level, wanted, allowed = self._level(i), abs(self._missing(i)), abs(disagreement)
+        raised = level * wanted / (allowed + _TINY)
+        # Rounding must not raise who wants what is allowed.
+        return m.minimum(m.where(wanted > allowed + _TINY, raised, level), 1.0)
 
-    def _equivalent(self, m: Elementwise, i: int, content: Value) -> Value:
-        """Return the wish, and keep the stubbornness, of the same force by the definition."""
-        executed = self._executed[i]
-        level = self.slope(i) * self._upper[i] / (self.gain * self.force_max[i])
-        missing = content - executed
-        allowed = m.clip(content, self._lower[i], self._upper[i]) - executed
-        beyond = abs(missing) > abs(allowed)
-        raised = level * abs(missing) / (abs(allowed) + _TINY)
-        self._share[i] = m.minimum(m.where(beyond, raised, level), 1.0)
-        return executed + level * missing / self._share[i]
+    def push(self, m: Elementwise, i: int, demand: Value) -> Value:
+        """See `DemandingHuman.push`: by their own law."""
+        return self._level(i) * self._missing(i)
+
+    def _level(self, i: int) -> Value:
+        """Return D p_ub/(gain F_max), 1."""
+        return self.slope(i) * self._upper[i] / (self.gain * self.force_max[i])
+
+    def _missing(self, i: int) -> Value:
+        """Return (p_0 - p_executed)/p_ub."""
+        return (self._content[i] - self._executed[i]) / self._upper[i]
 
 
 _TINY = 1e-12

@@ -23,7 +23,7 @@ from cowalk.sim.basics.validators import (
 )
 
 from ...basics.protocols import Truth
-from ..laws.demand import FORCE_MAX, GAIN, Pair, prescribed_truth
+from ..laws.demand import FORCE_MAX, Pair, strength, unknown
 from .recording import Columns, read_recording
 from .resampling import resample
 from .sensor import RecordingSensor
@@ -42,8 +42,8 @@ CHOICES = {
 class RecordedHuman:
     """Exerts the force of a recording, whatever the base does.
 
-    A recording does not tell what the person wanted: its truth is that of
-    `cowalk.agents.humans.laws.demand.prescribed_truth`.
+    A recording does not tell what the person wanted: wish and stubbornness are NaN. Insistence,
+    the share of their strength, is known.
 
     Parameters
     ----------
@@ -70,9 +70,7 @@ class RecordedHuman:
     scale : float
         Factor on the force, on top of the sensor's signs.
     force_max : (float, float)
-        Force forward and sideways that counts as full stubbornness, N.
-    gain : float
-        As in the common definition, 1.
+        Largest force forward and sideways of the person, N: what insistence refers to.
 
     Raises
     ------
@@ -95,7 +93,6 @@ class RecordedHuman:
     start: float = 0.0
     scale: float = 1.0
     force_max: Pair = (7.5, 7.5)
-    gain: float = 2.0
 
     def __post_init__(self) -> None:
         require_instance("columns", self.columns, Columns)
@@ -108,7 +105,7 @@ class RecordedHuman:
             require_text(("rows", column), value, "the text that stands there")
         require_choices(self, CHOICES)
         require_pairs(self, {"force_max": FORCE_MAX})
-        require_ranges(self, RANGES | {"gain": GAIN}, lanes=True)
+        require_ranges(self, RANGES)
         self._time, self._force = read_recording(
             self.file,
             self.columns,
@@ -121,12 +118,12 @@ class RecordedHuman:
 
     def reset(self, rng: np.random.Generator, situation: Situation) -> None:
         """See `Human.reset`."""
-        self._upper = np.asarray(situation.bounds.upper, dtype=float)
         self._period = situation.period
         played = self.scale * resample(self._time, self._force, self._period, self.resample)
         # The last row is silence: before the start, and after the end if it does not loop.
         self._played = np.vstack((played, np.zeros(2)))
-        self._truth = Truth(np.zeros(2), np.zeros(2))
+        self._strength = strength(self.force_max)
+        self._truth = unknown(np.zeros(2), self._strength)
 
     def act(self, observation: Observation) -> Array:
         """See `Human.act`."""
@@ -139,9 +136,7 @@ class RecordedHuman:
         else:
             row = np.where((step < 0) | (step >= silence), silence, step)
         force = self._played[row]
-        self._truth = prescribed_truth(
-            force, observation["twist"], self._upper, self.force_max, self.gain
-        )
+        self._truth = unknown(observation["twist"], self._strength)
         return np.asarray(force)
 
     def truth(self) -> Truth:

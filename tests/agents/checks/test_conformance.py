@@ -102,6 +102,34 @@ class Degrees(Good):
         return Truth(np.array([0.8, 20.0]), np.array([0.0, 0.5]))
 
 
+class Lawful(Good):
+    """Pushes by the common definition, and says so."""
+
+    share = 0.3
+
+    def act(self, observation):
+        missing = (np.array([0.8, 0.0]) - observation["twist"]) / (1.2, 0.5)
+        return 7.5 * np.clip(2.0 * 0.3 * missing, -1.0, 1.0)
+
+    def truth(self):
+        strength, shares = np.array([7.5, 7.5]), np.full(2, self.share)
+        return Truth(np.array([0.8, 0.0]), shares, strength, 2.0)
+
+
+class Liar(Lawful):
+    share = 0.9
+
+
+class NegativeDelay(Good):
+    def truth(self):
+        return Truth(np.array([0.8, 0.0]), np.array([0.0, 0.5]), delay=-0.1)
+
+
+class TwoGains(Good):
+    def truth(self):
+        return Truth(np.array([0.8, 0.0]), np.array([0.0, 0.5]), gain=np.ones(2))
+
+
 class PlainTruth(Good):
     def truth(self):
         return (0.8, 0.0), (0.0, 0.5)
@@ -257,7 +285,10 @@ FAULTS = {
     Deaf: "closed_loop = False in the class",
     Modest: "yet its force answers the base",
     Stubborn: r"leaves \[0, 1\]",
-    Degrees: "rad/s",
+    Degrees: r"leaves the situation's bounds, here \[0.0, -0.5\] to \[1.2, 0.5\] .*; clip it",
+    Liar: r"pushes forward with 0.33 times what truth\(\) stands for, .*: say the stubbornness",
+    NegativeDelay: r"truth\(\).delay is not 0 s or more",
+    TwoGains: r"truth\(\).gain is .*: return one number",
     PlainTruth: r"return Truth\(wish=",
     Scribbles: r"act changes observation\['twist'\]",
     OneArray: "return a fresh one",
@@ -285,6 +316,18 @@ def test_a_fault_is_named_with_its_cure(faulty):
     found = human_problems(faulty)
     assert "\n" not in " ".join(found)
     assert len(found) <= 3, "a fault is named once, not at every step"
+
+
+def test_a_human_who_states_what_is_behind_the_force_passes():
+    assert human_problems(Lawful) == []
+
+
+def test_nobody_needs_to_know_what_a_force_is_for():
+    class Unknown(Good):
+        def truth(self):
+            return Truth(np.full(2, np.nan), np.full(2, np.nan))
+
+    assert human_problems(Unknown) == []
 
 
 def test_a_force_that_is_not_finite_is_one_fault():

@@ -101,7 +101,7 @@ def test_a_wish_beyond_the_bounds_is_the_wish_for_the_bound_held_more_stubbornly
     truth = human.truth()
     level = 5.0 * 1.6 * 0.5 / 15.0
     assert level < truth.stubbornness[1] <= 1.0
-    assert truth.wish[1] >= 0.5 - 1e-9
+    assert truth.wish[1] == 0.5
     assert force[1] == pytest.approx(min(50.0 * (-1.0 + 0.35 + 0.15 + 0.87), 7.5))
 
 

@@ -340,7 +340,7 @@ def test_keys_and_columns_that_were_renamed_are_refused_with_the_new_name(tmp_pa
     with pytest.raises(InputError, match="column 'clearance' is called 'gap' now"):
         Trace.read(tmp_path / "trace.parquet")
     monkeypatch.setattr(trace_module, "FORMAT", 1)
-    with pytest.raises(InputError, match="written in form 2, this cowalk reads up to 1"):
+    with pytest.raises(InputError, match="written in form 3, this cowalk reads up to 1"):
         Trace.read(tmp_path / "trace.parquet")
 
 
