@@ -46,7 +46,9 @@ def write_columns(
         fields.append(pa.field(name, array.type, metadata={"unit": units[name]}))
         arrays.append(array)
     schema = pa.schema(fields, metadata={_FORM: str(form)})
-    pq.write_table(pa.Table.from_arrays(arrays, schema=schema), file)
+    table = pa.Table.from_arrays(arrays, schema=schema)
+    with file.open("wb") as out:  # a name would be taken for an address where it looks like one
+        pq.write_table(table, out)
 
 
 def read_columns(file: Path) -> tuple[dict[str, Array], dict[str, str], int]:
@@ -60,8 +62,11 @@ def read_columns(file: Path) -> tuple[dict[str, Array], dict[str, str], int]:
     import pyarrow as pa
     import pyarrow.parquet as pq
 
+    if not file.is_file():
+        raise InputError(f"{file}: there is no such file")
     try:
-        table = pq.read_table(file)
+        with file.open("rb") as source:
+            table = pq.read_table(source)
     except (OSError, pa.ArrowInvalid) as error:
         raise InputError(f"{file}: cannot be read as a Parquet file ({error})") from error
     units = {

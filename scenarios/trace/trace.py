@@ -57,6 +57,21 @@ class Trace:
         self._rows = np.empty((capacity, len(units)))
         self._count = 0
 
+    @classmethod
+    def of(cls, units: Mapping[str, str], values: Array) -> Trace:
+        """Return a trace of rows that are there already.
+
+        Parameters
+        ----------
+        units : mapping of str to str
+            Every column and its unit, in order.
+        values : ndarray, shape (rows, columns)
+        """
+        trace = cls(units, max(1, len(values)))
+        trace._rows[: len(values)] = values
+        trace._count = len(values)
+        return trace
+
     def append(self, row: Mapping[str, float]) -> None:
         """Add a row: a number for each column, by name."""
         if self._count == len(self._rows):

@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.colors import to_rgba
 
-from cowalk.sim.basics.errors import InputError
+from cowalk.sim.basics.errors import InputError, SimulationError
 from cowalk.sim.basics.motion import compose
 from cowalk.sim.view.scene import Scene
 from cowalk.sim.view.shapes import Place, plain_figures, plain_places
 
-from ..export.file import writable_file
+from ..export.file import unfinished, writable_file
 from ..figures.style import AUTOMATION, HUMAN, HUMAN_FORWARD, MUTED
 from .rerun_shapes import archetypes
 from .watcher import Filmed, arc_points
@@ -68,6 +68,8 @@ CURVES: dict[str, tuple[str, str, str]] = {
 class RerunLog:
     """A watcher that writes a recording for the Rerun viewer.
 
+    Until it is finished it is called ``NAME.unfinished.rrd``; one that is there stays until then.
+
     Parameters
     ----------
     file : str or Path
@@ -106,7 +108,7 @@ class RerunLog:
         )
         self._stream.set_log_tick_enabled(False)
         self._stream.set_log_time_enabled(False)
-        self._stream.save(self.file, default_blueprint=self._blueprint())
+        self._stream.save(unfinished(self.file), default_blueprint=self._blueprint())
         self._still("/", rr.ViewCoordinates.RIGHT_HAND_Z_UP)
         for entity, (_, label, colour) in CURVES.items():
             self._still(entity, rr.SeriesLines(names=label, colors=_rgba(colour), widths=2.0))
@@ -157,6 +159,11 @@ class RerunLog:
         if self._stream is not None:
             self._stream.disconnect()
             self._stream = None
+            try:
+                unfinished(self.file).replace(self.file)
+            except OSError as error:
+                what = f"the recording {self.file} cannot be written: {error.strerror}"
+                raise SimulationError(what) from error
 
     def _still(self, entity: str, what: Any) -> None:
         self._stream.log(entity, what, static=True)

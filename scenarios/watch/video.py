@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,7 +17,7 @@ from cowalk.sim.basics.motion import compose
 from cowalk.sim.view import top_view as topview
 from cowalk.sim.view.camera import Camera, level_camera
 
-from ..export.file import writable_file
+from ..export.file import unfinished, writable_file
 from ..figures.style import AUTOMATION, HUMAN
 from .video_frame import (
     FORCE,
@@ -56,7 +58,9 @@ ARROW_ABOVE = 0.12
 class Video:
     """A watcher that writes an H.264 video, in real time at the control rate.
 
-    A plant without cameras is drawn from above. The file can be played whatever ends the run.
+    A plant without cameras is drawn from above. Until it is finished it is called
+    ``NAME.unfinished.mp4``, which can be played whatever ends the process; a film that is there
+    already stays until then.
 
     Parameters
     ----------
@@ -71,6 +75,8 @@ class Video:
 
     def __init__(self, file: str | Path) -> None:
         self.file = writable_file(file, ".mp4")
+        # Absolute, so that no name is taken for an option or a protocol.
+        self._written = str(unfinished(self.file.absolute()))
         self._encoder = _encoder()
         self._process: subprocess.Popen[bytes] | None = None
 
@@ -93,7 +99,7 @@ class Video:
         # can be played even if the encoder is killed.
         packed += ["-g", str(2 * FRAMES_PER_SECOND), "-movflags", "hybrid_fragmented"]
         self._process = subprocess.Popen(
-            [self._encoder, "-y", "-v", "error", *raw, "-i", "-", *packed, str(self.file)],
+            [self._encoder, "-y", "-v", "error", *raw, "-i", "-", *packed, self._written],
             stdin=subprocess.PIPE,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.PIPE,
@@ -165,13 +171,23 @@ class Video:
         _, said = process.communicate()
         if process.returncode != 0:
             raise SimulationError(self._failure(said))
+        try:
+            os.replace(self._written, self.file)
+        except OSError as error:
+            raise SimulationError(f"{self._cannot}: {error.strerror}") from error
 
     def _failure(self, said: bytes | None = None) -> str:
         if said is None and self._process is not None:
             _, said = self._process.communicate()
         self._process = None
         reason = (said or b"").decode(errors="replace").strip().splitlines()
-        return f"the video {self.file} cannot be written: {reason[-1] if reason else 'no reason'}"
+        with suppress(OSError):
+            os.remove(self._written)
+        return f"{self._cannot}: {reason[-1] if reason else 'no reason given'}"
+
+    @property
+    def _cannot(self) -> str:
+        return f"the video {self.file} cannot be written"
 
 
 def _draw_force(

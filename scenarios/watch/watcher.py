@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 import numpy as np
 
-from cowalk.sim.basics.errors import SimulationError
+from cowalk.sim.basics.errors import InputError, SimulationError, told
 from cowalk.sim.basics.motion import Array, arc_displacement, compose
 
 if TYPE_CHECKING:
@@ -37,7 +38,7 @@ class Watcher(Protocol):
         Raises
         ------
         SimulationError
-            If watching cannot go on; the run then ends with what it has.
+            If watching cannot go on; the run does, without this watcher.
         """
         ...
 
@@ -81,12 +82,64 @@ def arc_points(pose: Array, twist: Array, horizon: float, count: int = 24) -> Ar
     return compose(pose, arc_displacement(np.broadcast_to(twist, (count, 2)), times))
 
 
-def close_all(watchers: Sequence[Watcher]) -> str | None:
-    """Close every watcher; return what the last of those that failed says."""
-    said = None
-    for watcher in watchers:
-        try:
+class Watchers:
+    """All who watch a run; one that fails is left out from then on, and costs nothing else.
+
+    Parameters
+    ----------
+    watchers : sequence of Watcher
+
+    Attributes
+    ----------
+    lost : list of str
+        What could not be shown or written, and why, a line each.
+    """
+
+    def __init__(self, watchers: Sequence[Watcher]) -> None:
+        self.lost: list[str] = []
+        self._watching = list(watchers)
+
+    def start(self, scenario: Scenario, env: CowalkEnv) -> None:
+        """See `Watcher.start`.
+
+        Raises
+        ------
+        InputError
+            If one cannot write what it is asked to: nothing is lost yet.
+        """
+        for watcher in tuple(self._watching):
+            try:
+                watcher.start(scenario, env)
+            except InputError:
+                raise
+            except Exception as failure:
+                self._leave_out(watcher, failure)
+
+    def step(self, env: CowalkEnv, trace: Trace) -> None:
+        """See `Watcher.step`."""
+        for watcher in self._watching:  # a list that is never changed, only replaced
+            try:
+                watcher.step(env, trace)
+            except Exception as failure:
+                self._leave_out(watcher, failure)
+
+    def close(self) -> None:
+        """See `Watcher.close`; the second time nothing is left to close."""
+        watching, self._watching = self._watching, []
+        for watcher in watching:
+            try:
+                watcher.close()
+            except Exception as failure:
+                self._note(watcher, failure)
+
+    def _leave_out(self, watcher: Watcher, failure: Exception) -> None:
+        self._watching = [other for other in self._watching if other is not watcher]
+        self._note(watcher, failure)
+        with suppress(Exception):
             watcher.close()
-        except SimulationError as failure:
-            said = str(failure)
-    return said
+
+    def _note(self, watcher: Watcher, failure: Exception) -> None:
+        known = isinstance(failure, SimulationError | InputError)
+        self.lost.append(
+            str(failure) if known else f"watcher {type(watcher).__name__!r}: {told(failure)}"
+        )

@@ -51,3 +51,17 @@ class PartError(Exception):
     def __init__(self, part: object, message: str) -> None:
         super().__init__(message)
         self.part = part
+
+
+def told(error: BaseException) -> str:
+    """Return kind and text of an error in one line, whatever a user's class makes of its text."""
+    kind = type(error).__name__
+    try:
+        text = " ".join(str(error).split())
+    except BaseException:  # it may raise anything
+        return f"{kind}, whose text cannot be made"
+    text = text if len(text) <= _LONGEST else f"{text[: _LONGEST - 3]}..."
+    return f"{kind}: {text}" if text else kind
+
+
+_LONGEST = 500
