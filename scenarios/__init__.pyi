@@ -12,6 +12,7 @@ from .running.build import build_agents as build_agents
 from .running.build import make_env as make_env
 from .running.build import seeds_of as seeds_of
 from .running.build import situation_of as situation_of
+from .running.recovery import recover_run as recover_run
 from .running.runner import run as run
 from .single_seat.environment import SingleSeatEnv as SingleSeatEnv
 from .trace.recorder import Recorder as Recorder

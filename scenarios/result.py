@@ -34,6 +34,10 @@ class RunResult:
         Why the run ended before its time, if it did.
     outlines : dict of str to Outline
         Of the bodies, for pictures; a load's in base axes, as it was held at the end.
+    lost : list of str
+        What could not be shown or written while it ran, and why, a line each.
+    fault : str or None
+        The traceback, if the run ended by a fault of cowalk's own.
     samples : SampleTable or None
         A row a force sample, if they were asked for.
     picture : callable, optional
@@ -47,6 +51,8 @@ class RunResult:
     error: str | None = None
     outlines: dict[str, Outline] = field(default_factory=lambda: PLAIN_BODIES.outlines)
     samples: SampleTable | None = None
+    lost: list[str] = field(default_factory=list)
+    fault: str | None = field(default=None, repr=False)
     picture: Callable[[RunResult], bytes] | None = field(default=None, repr=False, compare=False)
 
     @property

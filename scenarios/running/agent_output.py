@@ -92,19 +92,46 @@ def require_belief(automation: object, belief: Any, columns: Mapping[str, str]) 
         value = getattr(belief, name)
         if not isinstance(value, np.ndarray) or value.shape != (2,):
             raise PartError(automation, f"belief().{name} is {said(value)}; it must be {_PAIR}")
+        if value.dtype.kind not in _REAL:
+            what = f"belief().{name} is an array of {value.dtype}; it must be real numbers"
+            raise PartError(automation, what)
+    for name, low, high in _RANGES:
+        for value in getattr(belief, name).tolist():
+            if value < low or value > high:  # and NaN is neither
+                what = f"belief().{name} has {value:.4g}; it must lie between {low:g} and {high:g}"
+                raise PartError(automation, what)
     for name in _NUMBERS:
         value = getattr(belief, name)
-        if not isinstance(value, float | int | np.number | np.ndarray) or np.ndim(value):
+        if not _is_one_number(value):
             raise PartError(automation, f"belief().{name} is {said(value)}; it must be one number")
+    if not isinstance(belief.extras, Mapping):
+        found = f"belief().extras is {said(belief.extras)}"
+        raise PartError(automation, f"{found}; it must be numbers by name")
     for name, value in belief.extras.items():
         if name not in columns:
             known = ", ".join(columns) or "nothing"
             raise PartError(automation, f"belief().extras has {name!r}; columns declares {known}")
-        if not isinstance(value, float | int | np.number | np.ndarray) or np.ndim(value):
+        if not _is_one_number(value):
             found = f"belief().extras has {name} = {said(value)}"
             raise PartError(automation, f"{found}; it must be one number")
 
 
+def _is_one_number(value: Any) -> bool:
+    if isinstance(value, float | int):
+        return True
+    array = isinstance(value, np.number | np.ndarray)
+    return array and not value.ndim and value.dtype.kind in _REAL
+
+
+_REAL = "fiu"
+"""Kinds of arrays that are real numbers."""
+_ROUNDING = 1e-9
+_RANGES = (
+    ("stubbornness", -_ROUNDING, 1.0 + _ROUNDING),
+    ("stubbornness_deviation", 0.0, math.inf),
+    ("human_wish_deviation", 0.0, math.inf),
+)
+"""What lies within which limits, if it is a number."""
 _PAIR = "a NumPy array of shape (2,)"
 _PAIRS = (
     "stubbornness",
@@ -120,6 +147,9 @@ _NUMBERS = ("interaction", "interaction_smoothed", "utility_loss", "target_utili
 def _finite_pair(part: object, method: str, answer: Any, expected: str) -> None:
     if not isinstance(answer, np.ndarray) or answer.shape != (2,):
         raise PartError(part, f"{method}() gave {said(answer)}; it must be {expected}, {_PAIR}")
+    if answer.dtype.kind not in _REAL:
+        what = f"{method}() gave an array of {answer.dtype}; {expected} must be real numbers"
+        raise PartError(part, what)
     first, second = values = answer.tolist()
     if not (math.isfinite(first) and math.isfinite(second)):
         raise PartError(part, f"{method}() gave {values}; {expected} must be finite")

@@ -4,12 +4,43 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from types import TracebackType
+from typing import NamedTuple
 
 from cowalk.agents.basics.protocols import Automation, Human
-from cowalk.sim.basics.errors import PartError
+from cowalk.sim.basics.errors import InputError, PartError, SimulationError, told
 
 from ..files.parts import kind_of_part
 from ..files.schema import Scenario, part_of
+
+
+class Culprit(NamedTuple):
+    """Who has failed.
+
+    Attributes
+    ----------
+    name : str
+        As the scenario names it: ``human 'escalating'``.
+    part : object
+    """
+
+    name: str
+    part: object
+
+    @property
+    def shipped(self) -> bool:
+        """Whether it comes with cowalk."""
+        return type(self.part).__module__.partition(".")[0] == "cowalk"
+
+    def at_fault(self, failure: BaseException) -> bool:
+        """Return whether a failure is a fault of cowalk's own, and not of a user's part or input.
+
+        Parameters
+        ----------
+        failure : exception
+            That it has failed with.
+        """
+        said = isinstance(failure, InputError | PartError | SimulationError)
+        return self.shipped and isinstance(failure, Exception) and not said
 
 
 class Blame:
@@ -24,38 +55,37 @@ class Blame:
     """
 
     def __init__(self, scenario: Scenario, human: Human, automation: Automation) -> None:
-        self._names: dict[int, str] = {}
-        self._parts = []  # kept alive, so that an identity stays theirs
-        for part, name in _named(scenario, human, automation):
-            self._names[id(part)] = name
-            self._parts.append(part)
+        self._parts = [
+            Culprit(name, part) for part, name in _named(scenario, human, automation)
+        ]  # kept alive, so that an identity stays theirs
+        self._known = {id(culprit.part): culprit for culprit in self._parts}
 
-    def of(self, failure: BaseException, otherwise: str) -> str:
-        """Return the name of the innermost part that a failure passed through.
+    def of(self, failure: BaseException, otherwise: Culprit) -> Culprit:
+        """Return the innermost part that a failure passed through.
 
         Parameters
         ----------
         failure : exception
             Raised, so that it has a traceback.
-        otherwise : str
+        otherwise : Culprit
             Whom to blame if it is none of the parts.
         """
         if isinstance(failure, PartError):
-            return self._names.get(id(failure.part), otherwise)
+            return self._known.get(id(failure.part), otherwise)
         found = otherwise
         for owner in _owners(failure.__traceback__):
-            found = self._names.get(id(owner), found)
+            found = self._known.get(id(owner), found)
         return self._called_wrongly(failure) or found
 
-    def _called_wrongly(self, failure: BaseException) -> str | None:
+    def _called_wrongly(self, failure: BaseException) -> Culprit | None:
         """Return whose method takes other arguments than it was given: it was never entered."""
         if not isinstance(failure, TypeError):
             return None
-        method = str(failure).partition("(")[0]
-        for part in reversed(self._parts):
-            classes = type(part).__mro__
+        method = told(failure).removeprefix("TypeError: ").partition("(")[0]
+        for culprit in reversed(self._parts):
+            classes = type(culprit.part).__mro__
             if method.rpartition(".")[0] in {owner.__qualname__ for owner in classes}:
-                return self._names[id(part)]
+                return culprit
         return None
 
 

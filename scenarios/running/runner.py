@@ -2,38 +2,30 @@
 
 from __future__ import annotations
 
-import math
-import platform
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import asdict
-from functools import cache
-from importlib.metadata import version
+from traceback import format_exception
 from typing import Any
 
 from cowalk.agents.basics.protocols import Automation, Human
-from cowalk.sim.basics.errors import InputError, PartError, SimulationError
+from cowalk.sim.basics.errors import InputError, PartError, SimulationError, told
 from cowalk.sim.env.env import CowalkEnv
 
-from ..expect.verdict import judge
 from ..export.json_ready import json_ready
-from ..export.run_folder import picture
-from ..files.assembling import named_parts
 from ..files.schema import Scenario
 from ..result import RunResult
-from ..trace.metrics import metrics
 from ..trace.recorder import Recorder
 from ..trace.rewards import RewardSum
 from ..trace.samples import SampleTable
 from ..trace.sensor_faults import SampleCount
-from ..trace.trace import FORMAT, Trace
-from ..watch.watcher import Watcher, close_all
+from ..watch.watcher import Watcher, Watchers
 from .agent_output import require_belief, require_force, require_truth, require_twist
-from .blame import Blame
+from .blame import Blame, Culprit
 from .build import build_agents, make_env, seeds_of, situation_of
+from .outcome import Attempt, outcome
 from .outlines import collision, outlines
-
-_VERSIONED = ("numpy", "scipy", "pybullet", "pettingzoo", "filterpy")
+from .signals import SIGNALS, Hold, interrupts
+from .step_limit import StepLimit, StepTooLong
 
 Progress = Callable[[int, int], None]
 """Called with the control steps done and their total."""
@@ -45,11 +37,13 @@ def run(
     watchers: Sequence[Watcher] = (),
     window: bool = False,
     samples: bool = False,
+    step_timeout: float | None = None,
 ) -> RunResult:
     """Run a scenario to its end.
 
     An agent or a body that goes astray ends the run cleanly: the result then carries
-    ``error`` and the trace so far.
+    ``error`` and the trace so far. So does an interrupt; another one waits until the result is
+    made. A watcher that fails is left out, and said in `RunResult.lost`.
 
     Parameters
     ----------
@@ -62,32 +56,38 @@ def run(
         Show the run in a window, on the PyBullet plant at no more than real time.
     samples : bool
         Keep a row a force sample as well: `RunResult.samples`.
+    step_timeout : float, optional
+        End the run if a control step takes longer, s of the clock on the wall: a part may never
+        return. Not on Windows, and in the main thread alone.
 
     Raises
     ------
     InputError
         If the scenario cannot be built, or a watcher cannot write what it is asked to.
     """
+    SIGNALS.check()
+    limit, watching = StepLimit(step_timeout), Watchers(watchers)
     human, automation = build_agents(scenario)
     env = make_env(scenario, "human" if window else None)
-    episode = _Episode(scenario, env, human, automation, progress, watchers, samples)
-    started = time.perf_counter()
-    try:
-        end, error = episode.end()
-        touched = collision(env) if end == "collision" else None
-    finally:
-        lost = close_all(watchers)
-        env.close()
-    if lost is not None and error is None:
-        end, error = "aborted", f"{scenario.name}: {lost}"
-    wall_time = time.perf_counter() - started
-    result = _result(scenario, episode.recorder.trace, end, error, wall_time)
-    counted = {"sensor": episode.count.summary(), "reward": episode.earned.summary()}
-    person = json_ready(episode.recorder.person)
-    result.summary |= {"contact": touched, "person": person, **counted}
-    result.samples = episode.samples
-    if len(result.trace):
-        result.outlines = outlines(env)
+    with Hold() as hold:
+        try:
+            episode = _Episode(scenario, env, human, automation, progress, watching, samples)
+            started = time.perf_counter()
+            end, error = episode.end(limit, hold)
+            attempt = Attempt(episode.fault)
+            touched = attempt(lambda: collision(env) if end == "collision" else None, None)
+        finally:
+            watching.close()
+            env.close()
+        wall_time = time.perf_counter() - started
+        result = outcome(scenario, episode.recorder.trace, end, error, wall_time, attempt)
+        counted = {"sensor": episode.count.summary(), "reward": episode.earned.summary()}
+        person = json_ready(episode.recorder.person)
+        result.summary |= {"contact": touched, "person": person, **counted}
+        result.samples, result.lost = episode.samples, watching.lost
+        if len(result.trace):
+            result.outlines = attempt(lambda: outlines(env), result.outlines)
+        result.fault = attempt.fault
     return result
 
 
@@ -101,39 +101,66 @@ class _Episode:
         human: Human,
         automation: Automation,
         progress: Progress | None,
-        watchers: Sequence[Watcher],
+        watchers: Watchers,
         samples: bool,
     ) -> None:
         self._scenario, self._env = scenario, env
         self._human, self._automation = human, automation
         self._progress, self._watchers = progress, watchers
-        self.recorder = Recorder(env, human, automation)
+        self._acting = "plant"
+        self.recorder = _recorder(scenario, env, human, automation)
+        self.fault: str | None = None
         self.count, self.earned = SampleCount(), RewardSum()
         self.samples = SampleTable(scenario.rates) if samples else None
         self._infos: dict[str, dict[str, Any]] = {}
 
-    def end(self) -> tuple[str, str | None]:
+    def end(self, limit: StepLimit, hold: Hold) -> tuple[str, str | None]:
         """Step until the end; return how it ended, and the error if that is why."""
-        scenario = self._scenario
         try:
-            self._walk()
-        except InputError as failure:
-            if not len(self.recorder.trace):
-                raise
-            return "aborted", self._blamed(failure)
-        except SimulationError as failure:
-            return "aborted", f"{scenario.name}: {failure}"
-        except KeyboardInterrupt:
-            return "interrupted", f"{scenario.name}: interrupted by the user"
+            with limit.heeded():
+                self._walk(limit)
+            hold.begin()  # within, so that no signal comes in between
         except BaseException as failure:  # a user's class may raise anything
-            return "aborted", self._blamed(failure)
+            hold.begin()
+            hold.ended = interrupts(failure)
+            return self._ended_by(failure)
         last = self._infos["human"]
         reasons = [why for why in ("goal", "collision") if last[why]]
         if last["grip_lost"] and self._env.plant_state.over:
             reasons.append("grip lost")
         return (reasons or ["time"])[0], None
 
-    def _walk(self) -> None:
+    def _ended_by(self, failure: BaseException) -> tuple[str, str]:
+        """Return how a run ends that something has ended, and why; what nobody has walked yet."""
+        scenario = self._scenario
+        if interrupts(failure):
+            return "interrupted", f"{scenario.name}: interrupted by the user"
+        culprit = Blame(scenario, self._human, self._automation).of(failure, self._usual())
+        if isinstance(failure, InputError) and not len(self.recorder.trace):
+            if culprit.shipped or self._acting == "watcher":
+                raise failure
+            raise InputError(f"{culprit.name}: {failure}", failure.at) from failure
+        if isinstance(failure, SimulationError) and culprit.part is self._env.plant:
+            return "aborted", f"{scenario.name}: {failure}"
+        if culprit.at_fault(failure):
+            self.fault = "".join(format_exception(failure))
+        when = f"t = {len(self.recorder.trace) * scenario.rates.period:g} s"
+        if isinstance(failure, PartError | StepTooLong):
+            return "aborted", f"{culprit.name} at {when}: {failure}"
+        return "aborted", f"{culprit.name} failed at {when}: {told(failure)}"
+
+    def _usual(self) -> Culprit:
+        """Return whom to blame where a failure shows nobody: who was to act."""
+        scenario = self._scenario
+        if self._acting == "human":
+            return Culprit(f"human {scenario.human.name!r}", self._human)
+        if self._acting == "automation":
+            return Culprit(f"automation {scenario.automation.name!r}", self._automation)
+        if self._acting == "watcher":
+            return Culprit("who watches", None)
+        return Culprit(f"plant {scenario.plant.name!r}", self._env.plant)
+
+    def _walk(self, limit: StepLimit) -> None:
         """Step the environment until the episode is over; note who acts, for who fails."""
         scenario, env, human, automation = (
             self._scenario,
@@ -143,8 +170,9 @@ class _Episode:
         )
         trace, count, record = self.recorder.trace, self.count, self.recorder.step
         columns = self.recorder.added
-        report_every = 1 if self._watchers else scenario.rates.control
+        report_every = scenario.rates.control
         seeds = seeds_of(scenario)
+        limit.start()
         self._acting = "plant"
         observations, self._infos = env.reset(seed=seeds.env)
         situation = situation_of(scenario, env)
@@ -152,10 +180,12 @@ class _Episode:
         human.reset(seeds.human, situation)
         self._acting = "automation"
         automation.reset(seeds.automation, situation)
+        limit.stop()
         self._acting = "watcher"
-        for watcher in self._watchers:
-            watcher.start(scenario, env)
+        self._watchers.start(scenario, env)
         while env.agents:
+            SIGNALS.check()  # for one that a part has swallowed
+            limit.start()
             self._acting = "human"
             force = human.act(observations["human"])
             require_force(human, force)
@@ -174,55 +204,19 @@ class _Episode:
             if self.samples is not None:
                 self.samples.add(env)
             record(rewards, self._infos, truth, belief)
+            limit.stop()
             self._acting = "watcher"
-            for watcher in self._watchers:
-                watcher.step(env, trace)
+            self._watchers.step(env, trace)
             if self._progress is not None and len(trace) % report_every == 0:
                 self._progress(len(trace), env.steps_per_episode)
 
-    def _blamed(self, failure: BaseException) -> str:
-        """Return who failed when, and how, in one line."""
-        scenario = self._scenario
-        seats = {
-            "human": f"human {scenario.human.name!r}",
-            "automation": f"automation {scenario.automation.name!r}",
-            "plant": f"plant {scenario.plant.name!r}",
-            "watcher": " or ".join(f"watcher {type(each).__name__!r}" for each in self._watchers),
-        }
-        blame = Blame(scenario, self._human, self._automation)
-        name = blame.of(failure, seats[self._acting])
-        when = f"t = {len(self.recorder.trace) * scenario.rates.period:g} s"
-        if isinstance(failure, PartError):
-            return f"{name} at {when}: {failure}"
-        return f"{name} failed at {when}: {type(failure).__name__}: {failure}"
 
-
-@cache
-def _versions() -> dict[str, str]:
-    """Return the versions of what a result depends on: read from files, so only once."""
-    return {name: version(name) for name in ("cowalk", *_VERSIONED)}
-
-
-def _result(
-    scenario: Scenario, trace: Trace, end: str, error: str | None, wall_time: float
-) -> RunResult:
-    """Score and judge what was recorded."""
-    period = scenario.rates.period
-    columns = trace.columns()
-    verdicts = judge(scenario.expect, columns, period) if len(trace) else []
-    simulated = len(trace) * period
-    summary = {
-        "format": FORMAT,
-        "scenario": scenario.name,
-        **named_parts(scenario),
-        "seed": scenario.seed,
-        "end": end,
-        "error": error,
-        "simulated_time_s": simulated,
-        "wall_time_s": wall_time,
-        "real_time_factor": simulated / wall_time if wall_time > 0.0 else math.inf,
-        "metrics": metrics(columns, period, scenario.world.path) if len(trace) else {},
-        "expectations": [asdict(verdict) for verdict in verdicts],
-        "versions": {"python": platform.python_version(), **_versions()},
-    }
-    return RunResult(scenario, trace, json_ready(summary), verdicts, error, picture=picture)
+def _recorder(scenario: Scenario, env: CowalkEnv, human: Human, automation: Automation) -> Recorder:
+    """Return what keeps the trace; a user's automation may fail to name its columns."""
+    try:
+        return Recorder(env, human, automation)
+    except InputError:
+        raise
+    except Exception as failure:
+        who = f"automation {scenario.automation.name!r}"
+        raise InputError(f"{who} failed to name its columns: {told(failure)}") from failure
