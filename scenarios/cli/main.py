@@ -5,7 +5,6 @@ Nothing but typer is imported before a command needs it, so that ``--help`` answ
 
 from __future__ import annotations
 
-import signal
 import sys
 from contextlib import redirect_stdout
 from pathlib import Path
@@ -13,17 +12,22 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from . import checking, humans, listing, new, studies
+from ..running.signals import Hold
+from . import checking, humans, listing, new, recover, studies
 from .changes import Changes, changing, option, read_changed
+from .ending import complain_of_fault, exit_code, write_report
 from .output import (
     BAD_INPUT,
     FAILED,
+    FAULT,
     PASSED,
     Json,
     complain,
     emit_json,
     emit_table,
+    json_alone,
     progress_bar,
+    settle_streams,
     two_digits,
 )
 
@@ -44,8 +48,8 @@ def command_line() -> typer.Typer:
             "  cowalk run puddle\n"
             "  cowalk list\n"
             "  cowalk COMMAND --help\n\n\b\n"
-            "Exit codes: 0 all well, 1 an expectation failed, 2 bad input or a run that was "
-            "aborted."
+            "Exit codes: 0 all well, 1 an expectation failed, 2 bad input or a run that was\n"
+            "aborted, 3 a fault of cowalk's own, 128 and its number after a signal."
         ),
     )
     app.command(
@@ -64,6 +68,7 @@ def command_line() -> typer.Typer:
     humans.register(app)
     studies.register(app)
     new.register(app)
+    recover.register(app)
     return app
 
 
@@ -95,15 +100,20 @@ def run(
     samples: Annotated[
         bool, typer.Option("--samples", help="Keep every force sample too, in samples.parquet.")
     ] = False,
+    step_timeout: Annotated[
+        float | None,
+        typer.Option(
+            metavar="SECONDS",
+            help="End the run if a control step takes longer: a part may never return.",
+        ),
+    ] = None,
     as_json: Json = False,
 ) -> int:
     """Run a scenario, keep what it gave, judge it."""
     reading = read_changed(scenario, changes)
     if show:
         return _show(reading, as_json)
-    from ..export.folder import writable_folder
-    from ..export.run_folder import draw_figure, write_run
-    from ..running.runner import run as run_scenario
+    from ..export.run_folder import RunFolder
     from ..watch.writers import watchers
 
     loaded = reading.scenario
@@ -112,29 +122,64 @@ def run(
     with option("--rerun"):
         watching += watchers(recording=rerun)
     with option("--out"):
-        folder = writable_folder(out if out is not None else Path("runs") / loaded.name)
-    # What a user's class prints must not end up in the JSON.
-    label = f"filming {loaded.name}" if video is not None else loaded.name
-    with progress_bar(label) as progress, redirect_stdout(sys.stderr):
-        result = run_scenario(loaded, progress, watching, gui, samples)
-    write_run(result, folder, figure=False)
-    written = {"video": video, "rerun": rerun}
-    files = {what: str(file) for what, file in written.items() if file is not None}
-    if as_json:
-        emit_json(result.summary | {"folder": str(folder), "passed": result.passed} | files)
-    elif result.error is None:
-        _report(result, files)
-    if result.error is not None:
-        kept = f"the trace so far, {len(result.trace)} rows, is in {folder / 'trace.parquet'}"
-        complain(f"{result.error}; {kept}")
-    if not no_figure:
-        sys.stdout.flush()  # results first: drawing takes longer than most runs
-        picture = draw_figure(result, folder)
-        if not as_json and result.error is None:
-            _say_file("picture", str(picture))
+        place = RunFolder(out if out is not None else Path("runs") / loaded.name)
+    with place:
+        if place.left is not None:
+            complain(f"a run that was killed has left {place.left}: cowalk recover {place.left}")
+        # What a user's class prints must not end up among the results.
+        label = f"filming {loaded.name}" if video is not None else loaded.name
+        with progress_bar(label) as progress, redirect_stdout(sys.stderr):
+            from ..running.runner import run as run_scenario
+
+            result = run_scenario(loaded, progress, [place, *watching], gui, samples, step_timeout)
+        with Hold() as hold:  # what ends the process now would end what is to be kept
+            hold.begin()
+            place.keep(result)
+        for said in result.lost:
+            complain(f"warning: {said}; all else is kept")
+        written = {"video": video, "rerun": rerun}
+        files = {what: str(file) for what, file in written.items() if file and file.exists()}
+        if as_json:
+            emit_json(
+                result.summary | {"folder": str(place.folder), "passed": result.passed} | files
+            )
+        elif result.error is None:
+            _report(result, files)
+        if result.error is not None:
+            _say_aborted(result, place.folder)
+        if not no_figure:
+            sys.stdout.flush()  # results first: drawing takes longer than most runs
+            _draw(result, place.folder, silent=as_json or result.error is not None)
+    if result.fault is not None:
+        return FAULT
     if result.error is not None:
         return BAD_INPUT
     return PASSED if result.passed else FAILED
+
+
+def _say_aborted(result: RunResult, folder: Path) -> None:
+    """Say in one line why a run was ended, and where the trace is."""
+    from ..export.run_folder import FAULT as REPORT
+
+    kept = f"the trace so far, {len(result.trace)} rows, is in {folder / 'trace.parquet'}"
+    if result.fault is not None:
+        report = write_report(result.fault, folder / REPORT)
+        complain_of_fault(str(result.error), report, kept)
+    else:
+        complain(f"{result.error}; {kept}")
+
+
+def _draw(result: RunResult, folder: Path, silent: bool) -> None:
+    """Draw the picture of a run, if that is possible."""
+    from ..export.run_folder import draw_figure, no_figure
+
+    try:
+        picture = draw_figure(result, folder)
+    except Exception as error:
+        complain(f"warning: {no_figure(error)}")
+    else:
+        if not silent:
+            _say_file("picture", str(picture))
 
 
 def _show(reading: Reading, as_json: bool) -> int:
@@ -187,29 +232,11 @@ def _report(result: RunResult, files: dict[str, str]) -> None:
 
 def main() -> None:
     """Run the command line and exit with its code."""
-    # A run that is told to stop keeps what it has, as after Ctrl-C.
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    settle_streams()
     # Without arguments: the help, not a complaint.
-    try:
-        code = command_line()(
-            args=sys.argv[1:] or ["--help"], prog_name="cowalk", standalone_mode=False
+    arguments = sys.argv[1:] or ["--help"]
+    with json_alone("--json" in arguments):
+        code = exit_code(
+            lambda: command_line()(args=arguments, prog_name="cowalk", standalone_mode=False)
         )
-    except Exception as error:
-        message = _one_line(error)
-        if message is None:
-            raise
-        complain(message)
-        code = BAD_INPUT
     sys.exit(code)
-
-
-def _one_line(error: Exception) -> str | None:
-    """Return what a user did wrong, or None if the error is ours."""
-    # Typer brings its own copy of click or uses the installed one: no class to name for both.
-    if hasattr(error, "format_message"):
-        said = error.format_message().replace("Value error, ", "").rstrip(".")
-        where = getattr(getattr(error, "ctx", None), "command_path", "cowalk")
-        return f"{said} (see {where} --help)"
-    from cowalk.sim.basics.errors import InputError, SimulationError
-
-    return str(error) if isinstance(error, InputError | SimulationError) else None

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
-from typing import Annotated, Any
+from contextlib import contextmanager, suppress
+from typing import Annotated, Any, TextIO
 
 import typer
 
-PASSED, FAILED, BAD_INPUT = 0, 1, 2
-"""Exit codes: all well, an expectation or verdict failed, bad input or an aborted run."""
+PASSED, FAILED, BAD_INPUT, FAULT = 0, 1, 2, 3
+"""Exit codes: all well, an expectation or verdict failed, bad input or an aborted run, a fault of
+cowalk's own. One that a signal has ended has 128 and the signal's number, as usual."""
+SIGNALLED = 128
 
 Json = Annotated[bool, typer.Option("--json", help="JSON alone on standard output.")]
 """The option that every command with an answer has."""
@@ -22,16 +25,71 @@ LINE_EVERY = 10.0
 """Seconds between lines about progress where there is no terminal."""
 
 
+_answers: TextIO | None = None
+"""Where JSON goes; None means to standard output."""
+
+
 def complain(message: str) -> None:
     """Write one line on standard error."""
-    print(f"cowalk: {' '.join(message.split())}", file=sys.stderr)
+    with suppress(OSError):  # closed: there is nobody to tell
+        print(f"cowalk: {' '.join(message.split())}", file=sys.stderr)
 
 
 def emit_json(value: Any) -> None:
     """Write a value as JSON on standard output; not-finite numbers become null."""
     from ..export.json_ready import json_ready
 
-    print(json.dumps(json_ready(value), indent=2, allow_nan=False, ensure_ascii=False))
+    text = json.dumps(json_ready(value), indent=2, allow_nan=False, ensure_ascii=False)
+    print(text, file=_answers, flush=True)
+
+
+@contextmanager
+def json_alone(asked: bool) -> Iterator[None]:
+    """Let nothing but `emit_json` reach standard output; what others print goes to standard error.
+
+    That holds for what C code prints as well, and programs that are started.
+
+    Parameters
+    ----------
+    asked : bool
+        Whether to do so.
+    """
+    global _answers
+    if not asked:
+        yield
+        return
+    usual = sys.stdout
+    usual.flush()
+    output, error = 1, 2
+    kept = os.dup(output)
+    os.dup2(error, output)
+    sys.stdout = sys.stderr
+    try:
+        with open(os.dup(kept), "w", encoding="utf-8", errors="backslashreplace") as _answers:
+            yield
+    finally:
+        _answers, sys.stdout = None, usual
+        os.dup2(kept, output)
+        os.close(kept)
+
+
+def settle_streams() -> None:
+    """Let standard output and error be there, and take any text, as UTF-8.
+
+    A file that is opened while one of them is closed would get its number, and with it whatever
+    C code prints.
+    """
+    for descriptor in range(3):
+        try:
+            os.fstat(descriptor)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)  # the lowest number that is free
+    for name in ("stdout", "stderr"):
+        stream = getattr(sys, name)
+        if stream is None:
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
+        elif hasattr(stream, "reconfigure"):
+            stream.reconfigure(encoding="utf-8", errors="backslashreplace")
 
 
 def emit_table(title: str, header: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:

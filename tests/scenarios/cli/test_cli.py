@@ -111,6 +111,7 @@ def test_results_are_there_before_the_picture(options, cowalk, scenario_file, mo
 
     def draw(result, file):
         shown.append(capfd.readouterr().out)
+        file.touch()
 
     monkeypatch.setattr("cowalk.scenarios.figures.run.draw_run", draw)
     code, after, _ = cowalk("run", scenario_file(), *options)
@@ -263,7 +264,7 @@ def test_a_folder_that_cannot_be_written_is_refused_before_the_run(
     ("human", "words"),
     [
         ("TurnsToNan", "nan"),
-        ("Interrupted", "interrupted"),
+        ("Interrupted", "human 'my_models:Interrupted' failed at t = 1.05 s: KeyboardInterrupt"),
         ("Refuses", "human 'my_models:Refuses' failed at t = 1.05 s: InputError: no more"),
         ("Leaves", "human 'my_models:Leaves' failed at t = 1.05 s: GeneratorExit: gone"),
     ],
