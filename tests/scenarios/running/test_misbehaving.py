@@ -172,7 +172,9 @@ BELIEFS = [
     *("belief extras undeclared", "belief extras none", "belief extras raise", "belief raises"),
     *("belief stubbornness range", "belief deviation range"),
 ]
-TRUTHS = ["truth none", "truth shape", "truth words", "truth list", "truth raises"]
+TRUTHS = [
+    *("truth none", "truth shape", "truth words", "truth list", "truth range", "truth raises"),
+]
 
 
 @pytest.fixture(scope="module", autouse=True)
