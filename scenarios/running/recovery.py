@@ -10,7 +10,9 @@ from pathlib import Path
 from cowalk.sim.basics.errors import InputError
 
 from ..export.run_folder import SCENARIO, STREAM, RunFolder
-from ..files.written import read_written
+from ..files.documents import parse
+from ..files.schema import Scenario, scenario_model
+from ..files.validation import validate
 from ..result import RunResult
 from ..trace.stream import read_stream
 from .outcome import Attempt, outcome
@@ -48,7 +50,7 @@ def recover_run(folder: str | Path) -> RunResult | None:
         left = target if direct else place.left
         if left is None:
             raise InputError(f"{folder}: no run that was killed has left anything there")
-        trace, scenario = read_stream(left / STREAM), read_written(left / SCENARIO)
+        trace, scenario = read_stream(left / STREAM), _written_scenario(left / SCENARIO)
         if not len(trace):
             raise InputError(f"{left / STREAM}: holds no row: the run had just begun")
         period = scenario.rates.period
@@ -64,3 +66,24 @@ def recover_run(folder: str | Path) -> RunResult | None:
     if left != target:
         shutil.rmtree(left, ignore_errors=True)
     return result
+
+
+def _written_scenario(file: Path) -> Scenario:
+    """Return the scenario that a run folder holds, without building or importing any part of it.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, or is none.
+    """
+    try:
+        if not file.is_file():
+            raise InputError(f"{file}: there is no such file")
+        document = parse(file.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"{file}: cannot be read ({error})") from error
+    scenario, problems = validate(scenario_model(), document.data)
+    if scenario is None or document.problems:
+        first = (document.problems or problems)[0]
+        raise InputError(f"{file}:{document.line(first.path)}: {first.message}")
+    return scenario
