@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from .expect.verdict import Verdict
     from .files.schema import Scenario
 
+LOST_FOOTING = "lost footing"
+"""What a human who did is said to have, as an end of a run and beside one."""
+
 
 @dataclass(repr=False)
 class RunResult:
@@ -77,4 +80,5 @@ def how_it_ended(summary: dict[str, Any]) -> str:
     touched = summary.get("contact")
     if isinstance(touched, dict):
         return f"collision of the {touched['body']} with {touched['thing']}"
-    return str(summary.get("end"))
+    end, lost = str(summary.get("end")), summary.get("footing_lost_s")
+    return end if lost is None or end == LOST_FOOTING else f"{end}, {LOST_FOOTING} at {lost:.4g} s"

@@ -128,7 +128,7 @@ SENSOR = {
 }
 ENV = {
     "thing": "world rates sensor bounds reward?",
-    "word": "plant render_mode?",
+    "word": "plant start render_mode?",
     "mapping": "plant_parameters?",
     "positive": "pace duration force_limit",
 }
@@ -212,6 +212,8 @@ ROWS = {
         {},
         not_negative="stiffness damping yaw_stiffness yaw_damping delay hand_stiffness "
         "hand_damping",
+        positive="traction",
+        word="on_lost_footing",
     ),
     CouplingParameters: row({}, word="kind", positive="mass length width"),
     DriveParameters: row(

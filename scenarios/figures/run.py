@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from cowalk.sim.basics.motion import Array
 
-from ..result import how_it_ended
+from ..result import LOST_FOOTING, how_it_ended
 from ..trace.sensor_faults import sensor_faults
 from .panels import PAPER_PANELS, columns, draw_panels
 from .paper import draw_paper_panels, draw_utility_loss
@@ -64,6 +64,7 @@ def run_figure(result: RunResult) -> Figure:
         draw_panels(axes, keys, data)
         draw_top_view(above, result, data, window)
         _mark_closest(above, axes[-1], data)
+        _mark_lost_footing(above, data)
         if _early_end(result):
             _mark_end(above, axes, result, data)
         for axis in (above, axes[-1]):
@@ -92,6 +93,8 @@ def _heading(result: RunResult) -> str:
     )
     if _early_end(result):
         parts += ("ENDED EARLY",)
+    if result.summary.get("footing_lost_s") is not None:
+        parts += (LOST_FOOTING.upper(),)
     failed = sum(not verdict.passed for verdict in result.verdicts)
     if failed:
         parts += (f"{failed} of {len(result.verdicts)} expectations FAILED",)
@@ -102,7 +105,8 @@ def _early_end(result: RunResult) -> str | None:
     """Return why the run did not go its whole way, or None if it did."""
     if result.error is not None:
         return result.error or "no reason given"
-    return how_it_ended(result.summary) if result.summary.get("end") == "collision" else None
+    early = result.summary.get("end") in ("collision", "grip lost", LOST_FOOTING)
+    return how_it_ended(result.summary) if early else None
 
 
 def _footer(result: RunResult) -> list[str]:
@@ -136,6 +140,14 @@ def _mark_closest(above: Axes, axis: Axes, data: dict[str, Array]) -> None:
     look["color"] = AGREED if gap >= 0.0 else FAULT
     axis.plot(data["t"][row], data["offset"][row], label=label, **look)
     above.plot(data["x"][row], data["y"][row], scalex=False, scaley=False, **look)
+
+
+def _mark_lost_footing(above: Axes, data: dict[str, Array]) -> None:
+    lost = np.flatnonzero(data["footing_held"] == 0.0)[:1]
+    if len(lost):
+        look: dict[str, Any] = {"marker": "X", "ms": 7.0, "ls": "none", "zorder": 9}
+        place = data["human_x"][lost], data["human_y"][lost]
+        above.plot(*place, color=FAULT, label=LOST_FOOTING, scalex=False, scaley=False, **look)
 
 
 def _mark_end(above: Axes, axes: Sequence[Axes], result: RunResult, data: dict[str, Array]) -> None:

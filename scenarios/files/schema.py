@@ -13,8 +13,8 @@ from cowalk.sim.basics.motion import TwistBounds
 from cowalk.sim.basics.own_modules import folders, look_in
 from cowalk.sim.basics.rates import Rates
 from cowalk.sim.basics.registry import import_address
-from cowalk.sim.basics.validators import require_range
-from cowalk.sim.env.configuration import RANGES
+from cowalk.sim.basics.validators import require, require_range
+from cowalk.sim.env.configuration import RANGES, STARTS
 from cowalk.sim.env.reward import RewardParameters
 from cowalk.sim.sensor.parameters import SensorParameters
 from cowalk.sim.world.world import World
@@ -33,6 +33,12 @@ def _within(name: str) -> AfterValidator:
         return value
 
     return AfterValidator(judged)
+
+
+def _known_start(value: str) -> str:
+    """Refuse a start that no environment can be made with."""
+    require(value in STARTS, "start", value, f"must be one of {', '.join(STARTS)}")
+    return value
 
 
 class Component(BaseModel):
@@ -85,6 +91,7 @@ class Scenario(BaseModel):
     bounds: TwistBounds = TwistBounds()
     force_limit: Annotated[float, _within("force_limit")] = 30.0
     reward: RewardParameters = RewardParameters()
+    start: Annotated[str, AfterValidator(_known_start)] = "pace"
     human: HumanComponent
     automation: AutomationComponent
     expect: dict[str, str] = Field(default_factory=dict)

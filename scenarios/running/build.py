@@ -59,6 +59,7 @@ def make_env(scenario: str | Scenario, render_mode: str | None = None) -> Cowalk
         duration=chosen.duration,
         force_limit=chosen.force_limit,
         reward=chosen.reward,
+        start=chosen.start,
         render_mode=render_mode,
     )
 

@@ -91,6 +91,7 @@ def outcome(
     if error is None and attempt.error is not None:
         end, error = "aborted", f"{scenario.name}: {attempt.error}"
     simulated = rows * period
+    lost = columns["t"][columns["footing_held"] == 0.0]
     summary: dict[str, Any] = {
         "format": FORMAT,
         "scenario": scenario.name,
@@ -98,6 +99,7 @@ def outcome(
         "seed": scenario.seed,
         "end": end,
         "error": error,
+        "footing_lost_s": float(lost[0]) if len(lost) else None,
         "simulated_time_s": simulated,
         "wall_time_s": wall_time,
         "real_time_factor": simulated / wall_time if wall_time != 0.0 else math.inf,

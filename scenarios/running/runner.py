@@ -126,9 +126,7 @@ class _Episode:
             return self._ended_by(failure)
         last = self._infos["human"]
         reasons = [why for why in ("goal", "collision") if last[why]]
-        if last["grip_lost"] and self._env.plant_state.over:
-            reasons.append("grip lost")
-        return (reasons or ["time"])[0], None
+        return (*reasons, self._env.plant_state.end or "time")[0], None
 
     def _ended_by(self, failure: BaseException) -> tuple[str, str]:
         """Return how a run ends that something has ended, and why; what nobody has walked yet."""

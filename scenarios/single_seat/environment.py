@@ -34,8 +34,8 @@ class SingleSeatEnv(gymnasium.Env[Any, Any]):
 
     A step is a control step. The reward is that of the seat (`cowalk.sim.env.reward.Reward`),
     an episode ends as `cowalk.sim.env.env.CowalkEnv` says. Infos hold ``clearance`` in m,
-    whether ``goal``, ``collision`` or ``grip_lost`` came, and ``reward_terms``, what each term
-    added to the reward; that of a reset has the ``partner``'s name.
+    whether ``goal``, ``collision``, ``grip_lost`` or ``footing_lost`` came, and ``reward_terms``,
+    what each term added to the reward; that of a reset has the ``partner``'s name.
 
     ``reset(seed=n)`` starts the episode that ``cowalk run`` runs with the seed n. Without a seed
     the next one follows from the last: whoever seeds the first reset repeats all of them.

@@ -33,7 +33,7 @@ SHIFT = (1.0, 0.3)
 """How far the obstacles are moved at most from seed to seed, along x and y, m."""
 METRICS = {"mean force": "N", "effort": "N s", "effort a metre": "N s/m", "time to agreement": "s"}
 """What is compared, and its unit; effort also by the metre walked, since runs differ in length."""
-EARLY = ("collision", "grip lost")
+EARLY = ("collision", "grip lost", "lost footing")
 """Ends of a run that cut it short."""
 NOTE = (
     "Time to agreement: over the runs that reached it. Runs that ended early are shorter, and so "

@@ -35,6 +35,7 @@ def of_state(env: CowalkEnv) -> dict[str, float]:
                 state.work,
                 left,
                 right,
+                float(state.footing_held),
             ),
             strict=True,
         )
@@ -46,7 +47,7 @@ _STATE = (
     *(name for name in UNITS if name.startswith("sensor_")),
     *("fx_intent", "fy_intent", "human_x", "human_y", "human_theta"),
     *(name for name in UNITS if name.startswith(("interaction_force", "interaction_torque"))),
-    *("work", "wheel_left", "wheel_right"),
+    *("work", "wheel_left", "wheel_right", "footing_held"),
 )
 
 

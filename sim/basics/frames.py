@@ -11,6 +11,8 @@ from .motion import Array
 Vector = tuple[float, float, float]
 Frame = tuple[Array, Array]
 """Rotation (3, 3) and origin (3,), m."""
+GRAVITY = 9.81
+"""m/s^2."""
 
 
 def within(outer: Frame, inner: Frame) -> Frame:

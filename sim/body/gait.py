@@ -125,9 +125,9 @@ class Gait:
         self._share = step / PACE_LAG
         self._phase = self._speed = 0.0
 
-    def reset(self, rng: np.random.Generator) -> None:
-        """Stand, and choose where in the stride the walk will start."""
-        self._speed = 0.0
+    def reset(self, rng: np.random.Generator, speed: float = 0.0) -> None:
+        """Walk at a speed (m/s), 0 to stand, and choose where in the stride that starts."""
+        self._speed = speed
         self._phase = float(rng.uniform(0.0, math.tau)) if self.enabled else 0.0
 
     def update(self, speed: float) -> Sway:
@@ -136,10 +136,17 @@ class Gait:
         The acceleration is that of half a step ahead: it is what acts until the next update.
         """
         self._speed += self._share * (speed - self._speed)
-        pace = abs(self._speed)
-        rate = math.pi * self._preferred * (pace / PREFERRED_SPEED) ** CADENCE_EXPONENT
-        phase = self._phase
-        self._phase = (phase + rate * self._step) % math.tau
+        now = self.sway()
+        self._phase = (self._phase + self._rate() * self._step) % math.tau
+        return now
+
+    def _rate(self) -> float:
+        """Return the rate of the stride's phase, rad/s."""
+        return math.pi * step_frequency(self._speed, self._preferred)
+
+    def sway(self) -> Sway:
+        """Return the sway now, as `update` does, without going on."""
+        pace, phase, rate = abs(self._speed), self._phase, self._rate()
         size = pace / FULL_SPEED if pace < FULL_SPEED else 1.0
         fore, side = self._half[0] * size, self._half[1] * size
         sin, cos, twice = math.sin(phase), math.cos(phase), 2.0 * rate

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from ..basics.frames import Vector
 from ..urdf.chain import hinge, link, planar, slider
 from ..world.outline import Outline, across, bar
@@ -52,6 +54,30 @@ class HumanBody:
             for arm, rest in zip(self.arms, self.rest, strict=True)
             for angle in arm.angles(rest)
         )
+
+    def holding(
+        self, sway: tuple[float, float, float, float]
+    ) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Return the arms' angles (rad) and rates (rad/s) with a swaying trunk and resting hands.
+
+        Parameters
+        ----------
+        sway : (x, y, vx, vy)
+            Of the trunk from its place, in the axes of what is held, m and m/s.
+
+        Raises
+        ------
+        InputError
+            If a hand is out of reach.
+        """
+        x, y, vx, vy = sway
+        angles: tuple[float, ...] = ()
+        rates: tuple[float, ...] = ()
+        for arm, (ahead, aside) in zip(self.arms, self.rest, strict=True):
+            bent = arm.angles((ahead - x, aside - y))
+            angles += bent
+            rates += tuple(np.linalg.solve(arm.jacobian(*bent), (-vx, -vy)).tolist())
+        return angles, rates
 
     @property
     def joints(self) -> tuple[str, ...]:

@@ -11,9 +11,10 @@ from collections import deque
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from ..basics.validators import Range, require_ranges
+from ..basics.validators import Range, require_choices, require_ranges
 from .anthropometry import BodyParameters, yaw_inertia
 from .arm import end_torque
+from .footing import ON_LOST_FOOTING, TRACTION, Footing
 from .gait import Gait
 from .human_body import HumanBody
 
@@ -25,6 +26,7 @@ RANGES: dict[str, Range] = {
     "delay": (0.0, 0.3, "s"),
     "hand_stiffness": (0.0, 1e9, "N/m"),
     "hand_damping": (0.0, 1e9, "N s/m"),
+    "traction": (0.01, 10.0, ""),
 }
 
 
@@ -48,12 +50,17 @@ class WalkerParameters:
         small displacements of a held hand (Mussa-Ivaldi, Hogan and Bizzi 1985, J Neurosci
         5:2732; Dolan, Friedman and Nagurka 1993, IEEE Trans SMC 23:698); the ends of the ranges
         could not be looked up there, so they count as typical.
+    traction : float
+        Coefficient of friction of shoes on the floor: legs push no harder than that share of the
+        body's weight (`cowalk.sim.body.footing`).
+    on_lost_footing : {"end", "mark"}
+        What lost footing does: end the episode, or mark it and let the body slide on.
 
     Raises
     ------
     InputError
-        If one is outside of `RANGES`. What is too stiff to be simulated is refused where the
-        bodies are known (`cowalk.sim.pair.gains`).
+        If one is outside of `RANGES`, or none of the words. What is too stiff to be simulated is
+        refused where the bodies are known (`cowalk.sim.pair.gains`).
     """
 
     stiffness: float = 1500.0
@@ -63,9 +70,12 @@ class WalkerParameters:
     delay: float = 0.05
     hand_stiffness: float = 100.0
     hand_damping: float = 10.0
+    traction: float = TRACTION
+    on_lost_footing: str = "end"
 
     def __post_init__(self) -> None:
         require_ranges(self, RANGES)
+        require_choices(self, {"on_lost_footing": ON_LOST_FOOTING})
 
 
 class Legs(NamedTuple):
@@ -97,6 +107,7 @@ class Walker:
     Legs: a delayed spring and damper towards the place beside the base, plus the force that
     turns the walking body with the base (m omega x v), plus the reaction to the intended push,
     so that a steady push does not move the trunk, plus what the sway of the gait takes (m a).
+    All of it is no more than what the shoes hold (`cowalk.sim.body.footing`).
     Arms: J^T (intended force + posture spring), and soft tissue at the ends of a joint's range
     (`cowalk.sim.body.arm.end_torque`).
 
@@ -144,21 +155,32 @@ class Walker:
         self._mass = mass
         self._late = round(parameters.delay / step)
         self.gait = gait
+        ends = parameters.on_lost_footing == "end"
+        self.footing = Footing(parameters.traction, mass, step, ends)
         self._legs: deque[tuple[float, float, float]] = deque()
 
-    def reset(self) -> None:
-        """Forget the reflexes under way."""
-        self._legs = deque([(0.0, 0.0, 0.0)] * self._late)
+    def reset(self, vx: float = 0.0, vy: float = 0.0, rate: float = 0.0) -> None:
+        """Forget the reflexes under way but those of a steady walk.
+
+        Parameters
+        ----------
+        vx, vy, rate : float
+            Velocity of the trunk, base axes, m/s, and of the base's turning, rad/s.
+        """
+        turn = self._mass * rate
+        self._legs = deque([(-turn * vy, turn * vx, 0.0)] * self._late)
+        self.footing.reset()
 
     def save(self) -> tuple[Any, ...]:
         """Return what `restore` takes."""
-        return tuple(self._legs), self.gait.save()
+        return tuple(self._legs), self.gait.save(), self.footing.save()
 
     def restore(self, saved: tuple[Any, ...]) -> None:
         """Go on from a saved state."""
-        legs, gait = saved
+        legs, gait, footing = saved
         self._legs = deque(legs)
         self.gait.restore(gait)
+        self.footing.restore(footing)
 
     def forces(
         self,
@@ -217,8 +239,7 @@ class Walker:
         )
         push_x, push_y = push
         late_x, late_y, legs_yaw = legs.popleft()
-        legs_x += late_x + push_x
-        legs_y += late_y + push_y
+        legs_x, legs_y = self.footing.bear(legs_x + late_x + push_x, legs_y + late_y + push_y)
 
         # Arms, in trunk axes.
         lean_cos, lean_sin = math.cos(lean), math.sin(lean)

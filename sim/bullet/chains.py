@@ -153,8 +153,8 @@ class Base(Protocol):
         """Return the state."""
         ...
 
-    def reset(self) -> None:
-        """Forget the command."""
+    def reset(self, speed: float = 0.0, rate: float = 0.0) -> tuple[float, float]:
+        """Forget the command, at a twist (m/s, rad/s), and return it as the limits leave it."""
         ...
 
     def save(self) -> Any:

@@ -27,10 +27,11 @@ from ..robot.robot import RobotParameters
 from ..sensor.wrench import SensorMount
 from ..world.outline import Bodies
 from ..world.world import World
-from .chains import State
 from .distances import EngineClearance
 from .pair import Pair
 from .pictures import Pictures
+from .report import report
+from .start import set_off
 
 if TYPE_CHECKING:
     from ..view.viewer import Viewer
@@ -116,28 +117,16 @@ class BulletPlant:
         self._distances: WeakSet[EngineClearance] = WeakSet()  # who drops one frees it
         self._steps = 0
 
-    def reset(self, world: World, rng: np.random.Generator) -> PlantState:
+    def reset(
+        self, world: World, rng: np.random.Generator, twist: tuple[float, float] = (0.0, 0.0)
+    ) -> PlantState:
         """See `Plant.reset`."""
         self._world = world
         self._steps = 0
-        x, y, yaw = world.start
-        cos, sin = math.cos(yaw), math.sin(yaw)
-
-        def beside(place: tuple[float, float, float]) -> State:
-            ahead, aside, turn = place
-            return x + cos * ahead - sin * aside, y + sin * ahead + cos * aside, yaw + turn
-
-        pair = self._pair
-        pair.base.reset()
-        pair.hands.reset()
-        self._walker.reset()
-        self._gait.reset(rng)
-        human = (*beside(pair.place), *pair.body.posture)
-        load: State = (*beside((*pair.handle[:2], 0.0)), 0.0, 0.0, 0.0) if pair.load else ()
-        pair.put((x, y, yaw, 0.0, 0.0, 0.0), human + (0.0,) * len(human), load)
         self._stopped = False
+        step = 1.0 / self._rates.physics
+        standing = set_off(self._pair, self._walker, world.start, twist, rng, step)
         self._watch()
-        standing = pair.standing_wrench(1.0 / self._rates.physics)
         return self._state(np.tile(standing, (self._rates.samples, 1)))
 
     def save(self) -> Any:
@@ -234,24 +223,9 @@ class BulletPlant:
         return self._state(np.array(samples).reshape(-1, 6), 0.5 * work / rates.physics)
 
     def _state(self, wrench: Array, work: float = 0.0) -> PlantState:
-        pair = self._pair
-        pair.refuse_divergence()
-        x, y, yaw, vx, vy, rate = pair.base_state
-        human = pair.human_state
-        load = pair.load_state
-        lost = not pair.hands.held
-        return PlantState(
-            pose=(x, y, yaw),
-            twist=(math.cos(yaw) * vx + math.sin(yaw) * vy, rate),
-            human_pose=(human[0], human[1], human[2]),
-            wrench_on_base=wrench,
-            mount=self._mount,
-            grip_held=not lost,
-            over=lost and self._grip.on_loss == "end",
-            time=self._steps * self._rates.period,
-            load_pose=(load[0], load[1], load[2]) if load else None,
-            work=work,
-        )
+        time = self._steps * self._rates.period
+        ends = self._grip.on_loss == "end"
+        return report(self._pair, self._walker, ends, self._mount, wrench, work, time)
 
     def distances(self, world: World) -> EngineClearance:
         """See `Plant.distances`: by the engine."""

@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from ..basics.errors import InputError
-from ..basics.frames import Vector
+from ..basics.frames import GRAVITY, Vector
 from ..engine.engine import WorldState, engine, load
 from ..robot.drive import Command, DriveParameters
 from ..robot.wheels import wheel_speeds
@@ -19,7 +19,6 @@ CASTER_RADIUS, CASTER_AHEAD = 0.05, 0.20
 """The casters are frictionless balls ahead of and behind the axle, m (inferred)."""
 BODY_SHARE = 0.1
 """Of the base's moment of inertia about the vertical, what its body has at least (inferred)."""
-GRAVITY = 9.81
 
 _LINK = (
     '<link name="{name}"><inertial><mass value="{mass!r}"/>'

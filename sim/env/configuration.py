@@ -11,6 +11,7 @@ from ..basics.rates import Rates
 from ..basics.validators import (
     Range,
     require,
+    require_choices,
     require_instance,
     require_ranges,
     require_text,
@@ -25,6 +26,9 @@ RANGES: dict[str, Range] = {
     "force_limit": (0.1, 1000.0, "N"),
 }
 """What two who walk together can have, for a day at most (inferred)."""
+
+STARTS = ("pace", "standing")
+"""At the usual walking speed, or at rest."""
 
 _KINDS: dict[str, tuple[type, str]] = {
     "world": (World, "a World"),
@@ -56,6 +60,7 @@ class Configuration:
     duration: float
     force_limit: float
     reward: RewardParameters = RewardParameters()
+    start: str = "pace"
 
     def __post_init__(self) -> None:
         for name, (kind, words) in _KINDS.items():
@@ -63,9 +68,18 @@ class Configuration:
         for key in self.plant_parameters:
             require_text("plant_parameters", key, "the name of a parameter")
         require_ranges(self, RANGES)
+        require_choices(self, {"start": STARTS})
         # A copy: what is done to theirs later changes nothing here.
         object.__setattr__(self, "plant_parameters", dict(self.plant_parameters))
         require_reachable(self.pace, self.bounds)
+
+    @property
+    def initial_twist(self) -> tuple[float, float]:
+        """Twist (v, omega) of the base at the start, within the bounds, m/s and rad/s."""
+        if self.start == "standing":
+            return 0.0, 0.0
+        (slowest, right), (_, left) = self.bounds.lower, self.bounds.upper
+        return max(self.pace, slowest), min(max(0.0, right), left)
 
     @property
     def steps(self) -> int:

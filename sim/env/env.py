@@ -36,7 +36,7 @@ Flags = dict[str, bool]
 Stepped = tuple[dict[str, Observation], dict[str, float], Flags, Flags, dict[str, dict[str, Any]]]
 """By seat: observations, rewards, whether terminated, whether truncated, infos."""
 
-_ENDS = ("goal", "collision", "grip_lost")
+_ENDS = ("goal", "collision", "grip_lost", "footing_lost")
 
 
 class CowalkEnv(WatchedEnv):
@@ -53,8 +53,9 @@ class CowalkEnv(WatchedEnv):
 
     Rewards are those of `cowalk.sim.env.reward.Reward`. An episode terminates when the base
     reaches the end of the path (``goal``), a body touches something solid (``collision``) or
-    the plant, having lost its grip, asks for it (``grip_lost``). It is truncated after
-    ``duration``. Infos hold what a scoring needs and no seat may see.
+    the plant asks for it, the grip (``grip_lost``) or the human's footing (``footing_lost``)
+    being lost. It is truncated after ``duration``. Infos hold what a scoring needs and no seat
+    may see.
 
     A copied or pickled environment is one of its own (see `cowalk.sim.env.resumable`).
 
@@ -79,6 +80,8 @@ class CowalkEnv(WatchedEnv):
         (s41598-024-53991-4).
     reward : RewardParameters or mapping
         What the seats are rewarded for; a mapping gives some of its values.
+    start : {"pace", "standing"}
+        Whether all walk along at the pace when an episode begins, or stand.
     render_mode : {None, "rgb_array", "human"}
 
     Raises
@@ -107,6 +110,7 @@ class CowalkEnv(WatchedEnv):
         duration: float = 30.0,
         force_limit: float = 30.0,
         reward: RewardParameters | Mapping[str, Any] = RewardParameters(),
+        start: str = "pace",
         render_mode: str | None = None,
     ) -> None:
         if isinstance(sensor, str):
@@ -117,7 +121,7 @@ class CowalkEnv(WatchedEnv):
         own = {} if plant_parameters is None else plant_parameters
         earned = reward_parameters(reward)
         self._configuration = given = Configuration(
-            world, plant, own, rates, sensor, bounds, pace, duration, force_limit, earned
+            world, plant, own, rates, sensor, bounds, pace, duration, force_limit, earned, start
         )
         self.world, self.rates, self.bounds, self.pace = world, rates, bounds, pace
         self.force_limit = force_limit
@@ -184,7 +188,9 @@ class CowalkEnv(WatchedEnv):
         self.agents, self._started = [], False  # until nothing can be refused any more
         self._step_count = 0
         self._terms = NO_TERMS
-        state = self._state = self._plant.reset(self.world, plant_rng)
+        state = self._state = self._plant.reset(
+            self.world, plant_rng, self._configuration.initial_twist
+        )
         self._sensor.reset(sensor_rng, state.wrench_on_base[-1], state.mount)
         self._reading = self._sensor.measure(state.wrench_on_base, state.mount)
         clearance, touching = self._distances(self._time, *state.poses)
@@ -221,14 +227,14 @@ class CowalkEnv(WatchedEnv):
         self._relative = self.world.path.relative(*state.pose)
         clearance, collision = self._distances(self._time, *state.poses)
         goal = self._relative[0] >= self.world.path.length
-        ends = zip(_ENDS, (goal, collision, not state.grip_held), strict=True)
-        self._info = {"clearance": clearance} | dict(ends)
+        ends = goal, collision, not state.grip_held, not state.footing_held
+        self._info = {"clearance": clearance} | dict(zip(_ENDS, ends, strict=True))
         terms = self._reward.terms(state, self._relative, clearance, collision, goal)
         self._terms, rewards = terms, self._reward.of_each_seat(terms)
         # What has happened is known by now; here is what the seats get to know of it.
         self._reading = self._sensor.measure(state.wrench_on_base, state.mount)
         observations = self._observations()
-        over = goal or collision or state.over
+        over = goal or collision or state.end is not None
         late = not over and self._step_count >= self.steps_per_episode
         if over or late:
             self.agents = []

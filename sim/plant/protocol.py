@@ -39,8 +39,11 @@ class PlantState:
         Where the sensor sits.
     grip_held : bool
         Whether human and base still hold on to each other.
-    over : bool
-        Whether the plant asks for the end of the episode, having lost its grip.
+    footing_held : bool
+        Whether the human has not lost their footing.
+    end : str or None
+        Why the plant asks for the end of the episode, if it does: ``"grip lost"``, or
+        ``"lost footing"``.
     time : float
         Since reset, s.
     load_pose : (x, y, theta), optional
@@ -56,7 +59,8 @@ class PlantState:
     wrench_on_base: Array
     mount: SensorMount = AT_HANDLE
     grip_held: bool = True
-    over: bool = False
+    footing_held: bool = True
+    end: str | None = None
     time: float = 0.0
     load_pose: tuple[float, float, float] | None = None
     work: float = math.nan
@@ -97,11 +101,21 @@ class Plant(Protocol):
         """Track and radius of the driven wheels, m, or None where there are none."""
         ...
 
-    def reset(self, world: World, rng: np.random.Generator) -> PlantState:
-        """Put base and human at the world's start, at rest, and return the state there.
+    def reset(
+        self, world: World, rng: np.random.Generator, twist: tuple[float, float] = (0.0, 0.0)
+    ) -> PlantState:
+        """Put base and human at the world's start, at a twist, and return the state there.
 
         Its wrench is the standing one, before anybody pushes: what a load that is clamped on
         weighs, 0 without one. The sensor is tared with it.
+
+        Parameters
+        ----------
+        world : World
+        rng : numpy.random.Generator
+        twist : (v, omega)
+            Of the base, in its axes, m/s and rad/s, as the drive's limits leave it. All that
+            moves moves as one with it: going straight on takes no force.
         """
         ...
 

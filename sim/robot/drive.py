@@ -117,11 +117,12 @@ class Command:
         self._late = round(p.delay / step)
         self.reset()
 
-    def reset(self) -> None:
-        """Forget the command: at rest."""
-        self._goal = (0.0, 0.0)
-        self._speed = self._rate = 0.0
-        self._under_way = deque([(0.0, 0.0)] * self._late)
+    def reset(self, speed: float = 0.0, rate: float = 0.0) -> tuple[float, float]:
+        """Forget the command, at a twist (m/s, rad/s), and return it as the limits leave it."""
+        self._goal = goal = limited((speed, rate), *self._limits)
+        self._speed, self._rate = goal
+        self._under_way = deque([goal] * self._late)
+        return goal
 
     def set(self, speed: float, rate: float) -> None:
         """Set the twist to approach, m/s and rad/s."""

@@ -51,12 +51,15 @@ class UnicyclePlant:
         """See `Plant.bodies`: two discs."""
         return PLAIN_BODIES
 
-    def reset(self, world: World, rng: np.random.Generator) -> PlantState:
+    def reset(
+        self, world: World, rng: np.random.Generator, twist: tuple[float, float] = (0.0, 0.0)
+    ) -> PlantState:
         """See `Plant.reset`."""
         self._world = world
         self._pose = world.start
         self._steps = 0
-        self._twist = self._hand_force = (0.0, 0.0)
+        self._twist = float(twist[0]), float(twist[1])
+        self._hand_force = (0.0, 0.0)
         return self._state()
 
     def step(

@@ -65,6 +65,7 @@ def result(rows=400, chosen=None, columns=None, **attributes):
     data["est_stubbornness_omega"] = 0.7 * bump
     data["smoothed_stubbornness_omega"] = 0.6 * bump
     data["target_utility"] = 1.0 - 0.6 * bump
+    data["footing_held"] = np.ones(rows)
     data["clearance"] = np.hypot(data["x"] - 9.0, data["y"]) - 0.68
     for name, values in (columns or {}).items():
         data[name] = np.broadcast_to(values, rows)

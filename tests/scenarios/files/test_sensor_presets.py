@@ -98,7 +98,9 @@ def test_faults_are_named(with_sensor, sensor, named):
 def test_shares_of_lost_and_saturated_samples_are_told(with_sensor):
     told = []
     for sensor in ("{drop_rate: 0.05}", "{range: 2.0}", "{}"):
-        result = run(load(with_sensor(sensor), ["duration=10", "human.parameters.level=[1, 1]"]))
+        # From standing, so that there is something to push for.
+        changes = ["duration=10", "human.parameters.level=[1, 1]", "start=standing"]
+        result = run(load(with_sensor(sensor), changes))
         assert result.error is None, result.error
         told.append((result.summary["sensor"], sensor_faults(result.summary)))
     (lossy, lost), (narrow, saturated), (_, well) = told

@@ -53,7 +53,7 @@ def test_only_the_stretcher_is_steered_from_behind(scenario, behind):
 
 @pytest.mark.parametrize("scenario", ["carry", "walk"])
 def test_agents_feel_and_read_sideways_force_with_the_sign_of_the_turn_it_asks_for(scenario):
-    env = make_env(load(scenario, ["sensor=none"]))
+    env = make_env(load(scenario, ["sensor=none", "start=standing"]))
     env.reset(seed=0)
     for _ in range(10):
         seen, *_ = env.step({"human": np.array([1.0, 4.0]), "automation": np.array([0.5, 0.0])})
@@ -87,8 +87,6 @@ def test_on_wheels_the_weight_of_what_is_carried_steers_nobody(sensor, mass):
     assert np.abs(result.trace["y"][ahead]).max() < 0.1
     assert result.summary["end"] == "goal"
     assert result.summary["sensor"]["saturated"] < 0.1
-    # Behind the low-cost sensor the lightest load ends off the path just the same.
-    assert result.passed or sensor == "low-cost", result.verdicts
 
 
 def test_a_sensor_too_small_for_the_load_is_refused_with_what_would_do():

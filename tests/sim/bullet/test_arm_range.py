@@ -13,8 +13,9 @@ from cowalk.sim.bullet.plant import MAX_HELD, BulletPlant
 from cowalk.sim.world.world import World
 
 WORLD = World(Path(((0, 0), (60, 0))))
-RELAXED = {"hand_stiffness": 50.0, "hand_damping": 5.0}
-FIRM = {"hand_stiffness": 100.0, "hand_damping": 10.0}
+# Feet that never slide: such a sway takes more than shoes hold.
+RELAXED = {"hand_stiffness": 50.0, "hand_damping": 5.0, "traction": 10.0}
+FIRM = {"hand_stiffness": 100.0, "hand_damping": 10.0, "traction": 10.0}
 
 
 def walk(speed, rate, percentile, hand="left", walker=RELAXED, drive="slip"):

@@ -67,10 +67,10 @@ def test_the_sensor_reads_in_its_own_frame():
 def test_too_hard_a_pull_loses_the_grip(grip, coupling):
     options = {"grip": grip, "coupling": {"kind": coupling}}
     held = walk(60, push=(0.0, 5.0), twist=(0.0, 0.0), **options)
-    assert all(state.grip_held and not state.over for state in held)
+    assert all(state.grip_held and state.end is None for state in held)
     lost = walk(160, push=(0.0, 15.0), twist=(0.0, 0.0), **options)
     assert not lost[-1].grip_held
-    assert lost[-1].over
+    assert lost[-1].end == "grip lost"
     if coupling == "handle":
         assert not lost[-1].wrench_on_base.any(), "nobody holds, nothing is read"
     assert np.abs(np.concatenate([s.force_on_base for s in lost[-20:]])).max() < 0.1
@@ -87,7 +87,7 @@ def test_a_base_let_go_of_stops_if_told_to():
     grip = {"release_force": 8.0, "on_loss": "stop"}
     states = walk(200, push=(0.0, 15.0), grip=grip)
     assert not states[-1].grip_held
-    assert not states[-1].over
+    assert states[-1].end is None
     assert states[-1].twist == pytest.approx((0.0, 0.0), abs=1e-3)
     assert np.isfinite(states[-1].human_pose).all()
 

@@ -332,7 +332,7 @@ def test_a_sensor_sits_near_the_handle(mount, named):
 def test_the_tare_of_a_load_on_wheels_moves_no_body_and_repeats():
     """What is read before a push is no more than the sensor's own error, episode by episode."""
     parameters = {"drive": {"kind": "wheels"}, "coupling": {"kind": "stretcher"}}
-    env = parallel_env(sensor="industrial", plant_parameters=parameters)
+    env = parallel_env(sensor="industrial", plant_parameters=parameters, start="standing")
     still = {"human": np.zeros(2), "automation": np.zeros(2)}
     read = []
     for _ in range(2):

@@ -37,6 +37,7 @@ def environment(built, sensor, control=20, mass=8.0, **drive):
     kind, grip, load = built
     return parallel_env(
         sensor=sensor,
+        start="standing",
         rates=Rates(control),
         plant_parameters={
             "drive": {"kind": kind, **drive},

@@ -60,7 +60,7 @@ def test_every_episode_sees_them_at_the_same_place_at_the_same_time(plant):
     world = World(
         Path(((0.0, 0.0), (10.0, 0.0))), pedestrians=(Pedestrian(((6.0, 3.0), (6.0, -3.0)), 1.0),)
     )
-    env = parallel_env(world, plant=plant, duration=2.0)
+    env = parallel_env(world, plant=plant, duration=2.0, start="standing")
     seen = []
     for seed in (1, 2):
         observations, _ = env.reset(seed=seed)
