@@ -61,9 +61,9 @@ def list_parts(
 
 
 def _files(kind: str) -> dict[str, str]:
-    from ..files.documents import parse
     from ..files.shipped import scenario_library
     from ..people.loading import population_library
+    from ..yaml_text.document import parse
 
     known = scenario_library() if kind == FILES[0] else population_library()
     data = {name: parse(file.read_text(encoding="utf-8")).data for name, file in known.items()}

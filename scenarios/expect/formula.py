@@ -84,6 +84,8 @@ def parse(text: str, columns: Collection[str]) -> Formula:
     FormulaError
         If it is no formula, or uses a column that is not there.
     """
+    if len(text) > _LONGEST:
+        raise FormulaError(f"it has {len(text):,} characters; write it in {_LONGEST:,}")
     names, called = _words(text)
     for name in names:
         if name not in columns and name in called:
@@ -94,6 +96,10 @@ def parse(text: str, columns: Collection[str]) -> Formula:
                 f"unknown column {name!r}; {spaces}{did_you_mean(name, list(columns))}"
             )
     return Formula(_tree(text, names), names)
+
+
+_LONGEST = 2_000
+"""Characters of a formula: what rtamt reads takes longer with its square."""
 
 
 def _as_rtamt_wants_it(text: str) -> str:

@@ -2,7 +2,7 @@
 
 What is mended, each with a test that shows the fault is still there:
 
-- rtamt adds an addition's children twice, and its evaluation takes two.
+- rtamt adds the children of an addition and of ``not`` twice, and its evaluation takes one or two.
 - Its ``unless`` looks from a bound that is no fraction, and is not read without bounds.
 - It reads ``x - y + z`` as x - (y + z), and ``x / y * z`` as x / (y * z): refused here.
 """
@@ -42,6 +42,11 @@ _DECLARING = {
 """Words of rtamt's that declare, import and annotate."""
 _LARGEST = 300
 """Largest power of ten of a number; a fraction of 1e999999999 fills any memory."""
+_SHOWN = 40
+_DEEPEST = 60
+"""Operators within one another; each takes a few frames of Python's stack when it is judged."""
+_MOST_UNLESS = 6
+"""``unless`` in a formula: each holds what stands before it twice."""
 
 
 class FormulaError(ValueError):
@@ -120,6 +125,8 @@ def tokens(text: str) -> list[Any]:
             raise FormulaError(f"{token.text!r} at character {token.column + 1} cannot stand there")
         if token.type in (StlParser.IntegerLiteral, StlParser.RealLiteral):
             _require_number(token.text)
+    if sum(token.type == StlParser.UnlessOperator for token in found) > _MOST_UNLESS:
+        raise FormulaError(f"it holds 'unless' more than {_MOST_UNLESS} times; part it in several")
     return found
 
 
@@ -127,8 +134,9 @@ def _require_number(text: str) -> None:
     try:
         size = abs(Decimal(text).adjusted())
     except InvalidOperation as error:
-        raise FormulaError(f"{text} is no decimal number") from error
+        raise FormulaError(f"{text[:_SHOWN]} is no decimal number") from error
     if size > _LARGEST:
+        text = f"{text[:_SHOWN]}{'...' * bool(text[_SHOWN:])}"
         raise FormulaError(f"{text} is out of reach: between 1e-{_LARGEST} and 1e{_LARGEST}")
 
 
@@ -154,7 +162,13 @@ def tree(text: str, names: tuple[str, ...]) -> Node:
         raise FormulaError(f"rtamt cannot read this ({' '.join(str(error).split())})") from error
     if len(ast.specs) != 1:
         raise FormulaError("this is more than one formula; join them with and")
+    if _depth(ast.specs[0]) > _DEEPEST:
+        raise FormulaError("it is nested too deeply")
     return ast.specs[0]
+
+
+def _depth(node: Node) -> int:
+    return 1 + max(map(_depth, node.children), default=0)
 
 
 class _TreeMaker(StlAstParserVisitor):  # type: ignore[misc]
@@ -162,14 +176,11 @@ class _TreeMaker(StlAstParserVisitor):  # type: ignore[misc]
 
     def visit(self, context: Any) -> Any:
         made = super().visit(context)
+        if isinstance(made, UnaryNode | BinaryNode):
+            del made.children[1 if isinstance(made, UnaryNode) else 2 :]  # some are there twice
         if isinstance(made, AbstractNode) and not hasattr(made, "text"):
             made.text = _text(context)
         return made
-
-    def visitExprAddition(self, context: Any) -> Node:
-        node = super().visitExprAddition(context)
-        del node.children[2:]  # they are there twice
-        return node
 
     def visitExprSubtraction(self, context: Any) -> Node:
         _require_brackets(context, 1, StlParser.ExprAdditionContext, "-", "+")

@@ -9,8 +9,8 @@ from typing import Any, cast
 from cowalk.agents.basics.protocols import Human
 from cowalk.sim.basics.registry import Registry
 
+from ..yaml_text.document import Fault, KeyPath, dotted
 from .building import attempt, complete
-from .documents import Fault, KeyPath, dotted
 from .parts import Part, kind_of_part, parts, roots
 from .schema import Component, HumanComponent, Scenario, part_of, section_model
 

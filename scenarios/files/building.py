@@ -14,7 +14,7 @@ from pydantic.errors import PydanticSchemaGenerationError, PydanticUserError
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.registry import Registry
 
-from .documents import Fault, KeyPath, dotted
+from ..yaml_text.document import Fault, KeyPath, dotted
 from .schema import Component
 from .validation import validate
 

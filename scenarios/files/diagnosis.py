@@ -15,12 +15,12 @@ from cowalk.sim.plant.protocol import Plant
 from cowalk.sim.world.contact import blocked_start
 
 from ..trace.columns import UNITS, all_columns
+from ..yaml_text.document import Document, Fault, KeyPath, dotted
 from .assembling import assemble, elsewhere, surroundings
 from .building import check_parameters
-from .documents import Document, Fault, KeyPath, dotted
 from .overrides import sections
 from .parts import Part, parts, roots
-from .schema import Component, Scenario, scenario_model, section_model
+from .schema import LONGEST_NAME, Component, Scenario, scenario_model, section_model
 from .validation import validate
 
 
@@ -69,6 +69,9 @@ def _with_preset(part: Part, data: dict[str, Any]) -> tuple[dict[str, Any], list
     given = {key: value for key, value in section.items() if key != part.named_by}
     named = section[part.named_by]
     at: KeyPath = (part.key, part.named_by)
+    if isinstance(named, str) and len(named) > LONGEST_NAME:
+        what = f"{dotted(at)}: a name has at most {LONGEST_NAME} characters"
+        return {**data, part.key: given}, [Fault(at, what)]
     try:
         preset = asdict(part.registry().get("none" if named in (None, False) else str(named)))
     except InputError as error:
@@ -183,5 +186,10 @@ def _formulas(
     found: list[Fault] = []
     for name, formula in expect.items():
         if isinstance(formula, str) and (reason := syntax_error(formula, columns, *timing)):
-            found.append(Fault(("expect", name), f"expect.{name} = {formula!r}: {reason}"))
+            shown = repr(formula) if len(formula) <= _SHOWN else f"{formula[:_SHOWN]!r}..."
+            found.append(Fault(("expect", name), f"expect.{name} = {shown}: {reason}"))
     return found
+
+
+_SHOWN = 300
+"""Characters of a formula in a message."""

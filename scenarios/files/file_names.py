@@ -9,8 +9,8 @@ from typing import Any, get_args
 
 from cowalk.sim.basics.file_names import names_file
 
+from ..yaml_text.document import KeyPath
 from .building import hints_of
-from .documents import KeyPath
 from .overrides import sections
 from .parts import PARAMETERS
 

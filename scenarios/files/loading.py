@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from os import PathLike
@@ -14,11 +15,13 @@ import yaml
 from pydantic import BaseModel
 
 from cowalk.sim.basics.errors import InputError
+from cowalk.sim.basics.file_names import read_file, what_it_is
 from cowalk.sim.basics.registry import did_you_mean
 from cowalk.sim.basics.validators import require
 
+from ..yaml_text.document import Document, KeyPath, dotted, parse
+from ..yaml_text.loader import MOST_BYTES, knows_exponents
 from .diagnosis import check
-from .documents import Document, KeyPath, dotted, knows_exponents, parse
 from .file_names import begin_paths_at
 from .overrides import Change, Dropped, OverrideError, expand_names, override, parsed
 from .schema import Scenario
@@ -64,10 +67,10 @@ def find(source: str | Path) -> Path:
     if isinstance(source, str) and source in known:
         return known[source]
     path = Path(source)
-    if path.is_file():
+    if os.path.isfile(path):  # pathlib fails at names too long
         return path
     if path.suffix in (".yaml", ".yml") or len(path.parts) > 1:
-        what = "is a folder" if path.is_dir() else "does not exist"
+        what = what_it_is(path) or "does not exist"
         raise InputError(f"{source}: this scenario file {what}; give the path of a YAML file")
     known_names = did_you_mean(str(source), list(known))
     raise InputError(f"unknown scenario {str(source)!r}; {known_names}, or the path of a YAML file")
@@ -224,9 +227,7 @@ def read_document(file: Path) -> Document:
         If the file cannot be read.
     """
     try:
-        return parse(file.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{file}: cannot be read ({error.strerror})") from error
+        return parse(read_file(file, MOST_BYTES).decode("utf-8"))
     except UnicodeDecodeError as error:
         raise InputError(f"{file}: this is not text in UTF-8; is it a YAML file?") from error
 

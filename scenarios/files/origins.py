@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
+from ..yaml_text.document import KeyPath, dotted, parse
 from .assembling import resolve
-from .documents import KeyPath, dotted, parse
 from .loading import Reading, leaves, plain, to_yaml
 from .parts import part_at
 from .schema import Scenario, section_model

@@ -6,11 +6,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-import yaml
-
 from cowalk.sim.basics.errors import InputError
 
-from .documents import KeyPath, Loader, dotted
+from ..yaml_text.document import KeyPath, dotted, parse
 from .parts import NAME, PARAMETERS, Part, part_at, parts
 from .schema import scenario_model
 from .validation import known_keys
@@ -123,10 +121,16 @@ def parsed(assignment: str, number: int = 0) -> tuple[KeyPath, bool, Any]:
         raise OverrideError(
             assignment, "write KEY=VALUE, such as human.parameters.gain=1.5", number
         )
-    try:
-        return tuple(steps), whole, yaml.load(text, Loader)
-    except yaml.YAMLError as error:
-        raise OverrideError(assignment, f"{text!r} is not a YAML value", number) from error
+    document = parse(text)
+    if document.problems:
+        shown = repr(text) if len(text) <= _SHOWN else f"{text[:_SHOWN]!r}..."
+        reason = f"{shown} is not a YAML value: {document.problems[0].message}"
+        raise OverrideError(assignment, reason, number)
+    return tuple(steps), whole, document.data
+
+
+_SHOWN = 60
+"""Characters of a value in a message."""
 
 
 def override(data: dict[str, Any], assignment: str, number: int = 0) -> Change:

@@ -25,6 +25,10 @@ from .parts import Part, kind_of_part, parts
 _CONFIG = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
 
+LONGEST_NAME = 200
+"""Characters of the name of a part, of whichever module."""
+
+
 def _within(name: str) -> AfterValidator:
     """Return what refuses a number that no environment can be made with."""
 
@@ -49,7 +53,7 @@ class Component(BaseModel):
 
     model_config = _CONFIG
 
-    name: str
+    name: Annotated[str, Field(max_length=LONGEST_NAME)]
     parameters: dict[str, Any] = Field(default_factory=dict)
 
 
@@ -79,7 +83,7 @@ class Scenario(BaseModel):
 
     model_config = _CONFIG
 
-    name: Annotated[str, Field(pattern=r"^[^./][^/]*$")]
+    name: Annotated[str, Field(pattern=r"^[^./\n\t][^/\n\t]*$", max_length=100)]
     description: str = ""
     seed: Annotated[int, Field(ge=0)] = 0
     duration: Annotated[float, _within("duration")] = 30.0

@@ -10,7 +10,7 @@ from typing import Any
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.own_modules import look_in
 
-from .documents import Document, Fault, KeyPath, dotted
+from ..yaml_text.document import Document, Fault, KeyPath, dotted
 from .overrides import sections
 
 VARIABLE = "COWALK_TRUST"

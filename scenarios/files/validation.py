@@ -17,7 +17,7 @@ from pydantic_core import ErrorDetails
 from cowalk.sim.basics.errors import InputError, Step
 from cowalk.sim.basics.registry import did_you_mean
 
-from .documents import Fault, KeyPath, dotted, not_plain
+from ..yaml_text.document import Fault, KeyPath, dotted, not_plain
 
 M = TypeVar("M", bound=BaseModel)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from importlib.resources import files
 from os import PathLike
 from pathlib import Path
@@ -13,13 +14,13 @@ from cowalk.sim.basics.registry import did_you_mean
 from cowalk.sim.basics.validators import require
 
 from ..files.assembling import build_human
-from ..files.documents import Document, Fault, KeyPath, dotted
 from ..files.file_names import begin_paths_at
 from ..files.loading import read_document
 from ..files.overrides import expand_names
 from ..files.schema import human_model
 from ..files.trust import code_named, untrusted
 from ..files.validation import validate
+from ..yaml_text.document import Document, Fault, KeyPath, dotted
 from .population import GAIT_RIPPLE, PROBABILITY, Group, Population
 from .sections import read_distributions, try_ends
 from .traits import faults_of_traits
@@ -58,7 +59,7 @@ def load_population(source: str | Path, *, trust: bool = False) -> Population:
     what = "the name or the path of a population is expected"
     require(isinstance(source, str | PathLike), "population", source, what)
     file = known.get(str(source), Path(source))
-    if not file.is_file():
+    if not os.path.isfile(file):
         names = did_you_mean(str(source), list(known))
         raise InputError(f"unknown population {str(source)!r}; {names}, or the path of a YAML file")
     document = read_document(file)

@@ -18,8 +18,8 @@ from cowalk.sim.body.gait import GaitParameters, step_frequency
 
 from ..files.assembling import unsuited
 from ..files.building import parameter_names
-from ..files.documents import KeyPath
 from ..files.schema import Scenario, human_model
+from ..yaml_text.document import KeyPath
 from .distribution import Distribution
 from .person import Person, takes
 from .sections import distributions, filled

@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterator, Mapping
 from copy import deepcopy
 from typing import Any
 
-from ..files.documents import Fault, KeyPath, dotted
 from ..files.validation import validate
+from ..yaml_text.document import Fault, KeyPath, dotted
 from .distribution import KEY, Distribution
 
 

@@ -16,8 +16,8 @@ from cowalk.sim.body.anthropometry import BodyParameters
 from cowalk.sim.body.gait import GaitParameters
 from cowalk.sim.body.walker import RANGES as WALKER_RANGES
 
-from ..files.documents import Fault, KeyPath, dotted
 from ..files.validation import validate
+from ..yaml_text.document import Fault, KeyPath, dotted
 from .distribution import Distribution
 from .sections import distributions, filled, read_distributions, try_ends
 

@@ -9,9 +9,13 @@ from xml.etree import ElementTree
 import numpy as np
 
 from ..basics.errors import InputError
+from ..basics.file_names import read_file
 from ..basics.frames import Frame, rotation, within
 from .accepted import check_urdf, numbers
 from .unexpanded import macro, undeclared
+
+MOST_BYTES = 20_000_000
+"""Of a URDF without its meshes; published ones have less than a hundredth (inferred)."""
 
 
 def read_robot(path: Path) -> ElementTree.Element:
@@ -24,12 +28,15 @@ def read_robot(path: Path) -> ElementTree.Element:
         refuses it.
     """
     try:
-        root = ElementTree.parse(path).getroot()
-    except OSError as error:
-        raise _faulty(path, "no such file can be read") from error
-    except (ElementTree.ParseError, LookupError) as error:  # the latter: an unknown encoding
-        what = undeclared(path.read_bytes()) or f"no XML: {error}"
-        raise _faulty(path, what) from error
+        data = read_file(path, MOST_BYTES)
+    except InputError as error:
+        raise _faulty(path, str(error).removeprefix(f"{path}: ")) from error
+    if b"<!ENTITY" in data:
+        raise _faulty(path, "it declares entities, which no robot needs and some bombs are made of")
+    try:
+        root = ElementTree.fromstring(data)
+    except (ElementTree.ParseError, LookupError, ValueError) as error:  # an unknown encoding
+        raise _faulty(path, undeclared(data) or f"no XML: {error}") from error
     if left := macro(root):
         raise _faulty(path, left)
     if root.tag != "robot" or root.find("link") is None:

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from io import BytesIO
+from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..basics.errors import InputError
+from ..basics.file_names import read_file
 from ..basics.frames import Frame, within
 from ..basics.motion import Array
 from ..world.outline import SIDES, Disc, Outline, hull
@@ -17,6 +20,8 @@ from .read import link_frames, origin
 
 FARTHEST = 5.0
 """From its root to the end of any shape of a robot that walks with people, m (inferred)."""
+MOST_BYTES = 200_000_000
+"""Of a mesh."""
 UPRIGHT = 1.0 - 1e-9
 """Cosine of the tilt up to which a cylinder counts as upright."""
 
@@ -153,7 +158,9 @@ def _mesh(name: str) -> tuple[Array, NDArray[np.int64]]:
     import trimesh
 
     try:
-        mesh = trimesh.load_mesh(name)
+        # Read by us: no reader then opens another file that this one names, or waits for a pipe.
+        data = read_file(Path(name), MOST_BYTES)
+        mesh = trimesh.load_mesh(BytesIO(data), file_type=Path(name).suffix.lower().lstrip("."))
         if mesh.units is not None:
             mesh.convert_units("meters")
         vertices, faces = np.asarray(mesh.vertices, dtype=float), np.asarray(mesh.faces)

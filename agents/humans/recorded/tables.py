@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import zipfile
 import zlib
 from collections.abc import Iterable
@@ -12,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from cowalk.sim.basics.errors import InputError
+from cowalk.sim.basics.file_names import what_it_is
 
 from .layout import Layout, csv_layout
 
@@ -70,8 +72,9 @@ def read_table(path: Path) -> Table:
     reader = _READERS.get(path.suffix.lower())
     if reader is None:
         raise faulty(path, f"ends in none of {', '.join(_READERS)}")
-    if not path.is_file():
-        raise faulty(path, "there is no such file")
+    if not os.path.isfile(path):
+        what = what_it_is(path)
+        raise faulty(path, "there is no such file" if what is None else f"this {what}")
     return reader(path)
 
 

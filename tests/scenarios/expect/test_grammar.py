@@ -1,5 +1,7 @@
 """Every operator of rtamt's grammar is judged or refused, and its faults are mended."""
 
+import time
+
 import numpy as np
 import pytest
 
@@ -125,7 +127,11 @@ def test_a_formula_declares_and_imports_nothing(formula):
 
 
 def test_a_formula_nested_without_end_is_refused():
-    assert syntax_error("not " * 2000 + "(x > 0)", COLUMNS, PERIOD) == "it is nested too deeply"
+    said = "it is nested too deeply"
+    assert syntax_error("not " * 480 + "(x > 0)", COLUMNS, PERIOD) == said
+    assert syntax_error("not " * 60 + "(x > 0)", COLUMNS, PERIOD) == said
+    assert syntax_error("not " * 50 + "(x > 0)", COLUMNS, PERIOD) is None
+    assert "write it in 2,000" in syntax_error("not " * 2000 + "(x > 0)", COLUMNS, PERIOD)
 
 
 def test_bounds_within_the_run_look_within_it_together():
@@ -193,3 +199,22 @@ def test_nodes_have_their_text():
     root = tree("always (abs(x) !== 2)", ("x",))
     assert root.text == "always (abs(x) != 2)"
     assert root.children[0].text == "abs(x) != 2"
+
+
+@pytest.mark.parametrize(
+    "formula",
+    [
+        "not " * 40 + "(x > 0)",
+        "(" * 40 + "x > 0" + " xor (x > 1))" * 40,
+        "(" * 40 + "x > 0" + " unless (x > 1))" * 40,
+        "(" * 7 + "x > 0" + " unless[0:1s] (x > 1))" * 7,
+        "(" * 40 + "x" + " + 1)" * 40 + " > 0",
+    ],
+    ids=["not", "xor", "unless", "timed unless", "addition"],
+)
+def test_no_formula_grows_with_a_power_of_its_length(formula):
+    """Rtamt's nodes of these hold some children twice: 2^40 of them would never be judged."""
+    begun = time.process_time()
+    reason = syntax_error(formula, COLUMNS, PERIOD)
+    assert time.process_time() - begun < 2.0
+    assert ("unless" in formula) == (reason is not None)

@@ -7,8 +7,8 @@ import pytest
 from numpy.typing import ArrayLike
 
 from cowalk.scenarios.files.building import attempt, check_parameters, complete
-from cowalk.scenarios.files.documents import Fault
 from cowalk.scenarios.files.schema import Component
+from cowalk.scenarios.yaml_text.document import Fault
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.registry import Registry, part
 

@@ -10,11 +10,11 @@ import pytest
 from cowalk.scenarios import run
 from cowalk.scenarios.files import parts
 from cowalk.scenarios.files.assembling import build_part
-from cowalk.scenarios.files.documents import parse
 from cowalk.scenarios.files.loading import faults, load, read
 from cowalk.scenarios.files.parts import Part
 from cowalk.scenarios.files.schema import part_of, with_named
 from cowalk.scenarios.files.shipped import scenario_library
+from cowalk.scenarios.yaml_text.document import parse
 from cowalk.sim.basics.errors import InputError
 
 PLANNERS = '''\

@@ -92,4 +92,4 @@ def test_what_only_a_plant_can_judge_is_a_fault_of_the_file(folder):
     file.write_text(TIGHT.format(plant=robot, width=3.0))
     (fault,) = faults(file)
     assert fault.line == 2
-    assert "none.urdf': no such file" in fault.message
+    assert "none.urdf': cannot be read (No such file" in fault.message

@@ -76,7 +76,7 @@ def test_a_users_robot_walks_with_its_own_mass(own):
 @pytest.mark.parametrize(
     ("text", "named"),
     [
-        (None, "no such file can be read"),
+        (None, "cannot be read"),
         ("<robot>", "no XML"),
         ("<sdf/>", "no <robot> with a <link>"),
         ("<robot><link name='a'/></robot>", "its links have no mass"),

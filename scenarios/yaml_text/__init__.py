@@ -1,0 +1,1 @@
+"""YAML text from anybody, as plain data: bounded, without code, every fault with its line."""
