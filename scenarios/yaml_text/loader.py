@@ -88,9 +88,8 @@ def refuse_too_much(text: str) -> None:
         If it is no YAML.
     """
     if len(text) > MOST_BYTES:
-        raise TooMuchError(
-            None, None, f"it holds more than {MOST_BYTES:,} characters{_TOO_MUCH}", None
-        )
+        what = f"it holds more than {MOST_BYTES:,} characters{_TOO_MUCH}"
+        raise TooMuchError(None, None, what, None)
     total = 0
     sizes: dict[str, int] = {}
     open_: list[tuple[str | None, int]] = []
@@ -102,9 +101,7 @@ def refuse_too_much(text: str) -> None:
             continue
         if isinstance(event, yaml.AliasEvent):
             if any(event.anchor == anchor for anchor, _ in open_):
-                what = (
-                    f"the alias *{event.anchor} stands within what it names, which contains itself"
-                )
+                what = f"the alias *{event.anchor} stands in what it names, which contains itself"
                 raise TooMuchError(None, None, what, event.start_mark)
             total += sizes.get(event.anchor, 1)
         elif isinstance(event, yaml.NodeEvent):
@@ -121,7 +118,7 @@ def refuse_too_much(text: str) -> None:
             raise TooMuchError(None, None, what, event.start_mark)
 
 
-def _events(text: str) -> Iterator[yaml.Event]:
+def _events(text: str) -> Iterator[Any]:
     loader = Loader(text)
     try:
         while loader.check_event():
