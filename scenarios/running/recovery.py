@@ -10,11 +10,11 @@ from pathlib import Path
 from cowalk.sim.basics.errors import InputError
 
 from ..export.run_folder import SCENARIO, STREAM, RunFolder
-from ..files.documents import parse
 from ..files.schema import Scenario, scenario_model
 from ..files.validation import validate
 from ..result import RunResult
 from ..trace.stream import read_stream
+from ..yaml_text.document import parse
 from .outcome import Attempt, outcome
 
 

@@ -94,6 +94,7 @@ def refuse_too_much(text: str) -> None:
     sizes: dict[str, int] = {}
     open_: list[tuple[str | None, int]] = []
     for event in _events(text):
+        mark: Any = event.start_mark  # libyaml's are of a type of their own
         if isinstance(event, yaml.CollectionEndEvent):
             anchor, before = open_.pop()
             if anchor is not None:
@@ -102,8 +103,8 @@ def refuse_too_much(text: str) -> None:
         if isinstance(event, yaml.AliasEvent):
             if any(event.anchor == anchor for anchor, _ in open_):
                 what = f"the alias *{event.anchor} stands in what it names, which contains itself"
-                raise TooMuchError(None, None, what, event.start_mark)
-            total += sizes.get(event.anchor, 1)
+                raise TooMuchError(None, None, what, mark)
+            total += sizes.get(str(event.anchor), 1)
         elif isinstance(event, yaml.NodeEvent):
             total += 1
             if event.anchor is not None:
@@ -112,10 +113,10 @@ def refuse_too_much(text: str) -> None:
             open_.append((event.anchor, total))
         if len(open_) > DEEPEST:
             what = f"lists and sections are nested more than {DEEPEST} deep{_TOO_DEEP}"
-            raise TooMuchError(None, None, what, event.start_mark)
+            raise TooMuchError(None, None, what, mark)
         if total > MOST_NODES:
             what = f"it holds more than {MOST_NODES:,} values, aliases written out{_TOO_MUCH}"
-            raise TooMuchError(None, None, what, event.start_mark)
+            raise TooMuchError(None, None, what, mark)
 
 
 def _events(text: str) -> Iterator[Any]:
