@@ -50,6 +50,8 @@ def lag(estimate: ArrayLike, truth: ArrayLike, period: float, longest: float = 1
         raise InputError(f"shapes {a.shape} and {b.shape}: two signals of one length are expected")
     if not period > 0.0:
         raise InputError(f"period = {period}: must be above 0 s", ("period",))
+    if not (_moves(a) and _moves(b)):
+        return float("nan")
     furthest = min(round(longest / period), a.size // 4)
     delays = np.arange(-furthest, furthest + 1)
     alike = np.array([_correlation(a, b, int(delay)) for delay in delays])
@@ -59,6 +61,12 @@ def lag(estimate: ArrayLike, truth: ArrayLike, period: float, longest: float = 1
         return float("nan")
     shortest = int(best[np.argmin(np.abs(best))])
     return float("nan") if abs(shortest) == furthest > 0 else shortest * period
+
+
+def _moves(values: Array) -> bool:
+    """Return whether a signal is more than a straight line, in which no delay can be read."""
+    time = np.flatnonzero(np.isfinite(values))
+    return time.size >= 3 and _without_line(values[time], time)[1] > 0.0
 
 
 def _correlation(a: Array, b: Array, delay: int) -> float:
@@ -75,7 +83,9 @@ def _correlation(a: Array, b: Array, delay: int) -> float:
 
 def _without_line(values: Array, time: NDArray[np.intp]) -> tuple[Array, float]:
     """Return a signal without its straight line, and its energy; 0 if that is rounding."""
+    # Against the values themselves: of a constant, the mean taken off leaves rounding alone.
+    least = _TINY**2 * float(values @ values)
     values, since = values - values.mean(), time - time.mean()
     left = values - since * (since @ values / (since @ since))
     energy = float(left @ left)
-    return left, energy if energy > _TINY**2 * (values @ values) else 0.0
+    return left, energy if energy > least else 0.0

@@ -97,6 +97,10 @@ Trust = Annotated[
     typer.Option("--trust", help="Import code that the file names; see docs/security.md."),
 ]
 """The option of every command that reads a file which may name code."""
+Population = Annotated[
+    str, typer.Option("--population", metavar="NAME", help="One that ships, or a YAML file.")
+]
+"""The option of every command in which people of a population walk."""
 _SEED = Annotated[int | None, typer.Option("--seed", help="Seed instead of the scenario's.")]
 
 
@@ -160,6 +164,21 @@ def option(name: str) -> Iterator[None]:
         yield
     except InputError as error:
         raise InputError(f"{name} {error}") from error
+
+
+_OWN = ("human.name", "human.parameters", "human.imperfections")
+"""Keys of the human seat that people of a population bring along."""
+
+
+def refuse_humans(changes: Changes) -> None:
+    """Refuse changes of what people of a population bring along."""
+    from cowalk.sim.basics.errors import InputError
+
+    for written, assignment in changes:
+        key = assignment.partition("=")[0].removesuffix(":")
+        if key == "human" or key.startswith(_OWN):
+            what = "people of a population bring their own; only human.intention can be set here"
+            raise InputError(f"{written}: {what}")
 
 
 def _refuse_contradictions(changes: Changes) -> None:

@@ -6,14 +6,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from .changes import Changes, load_changed, option
+from .changes import Changes, Population, load_changed, option, refuse_humans
 from .output import PASSED, Json, emit_json, emit_table, interval, progress_bar
 
 if TYPE_CHECKING:
     from ..studies.passing import Passes
-
-OWN = ("human.name", "human.parameters", "human.imperfections")
-"""Keys of the human seat that people of a population bring along."""
 
 
 def who_passes(
@@ -21,10 +18,7 @@ def who_passes(
     scenario: Annotated[
         str, typer.Argument(metavar="SCENARIO", help="Name in the library, or a YAML file.")
     ],
-    population: Annotated[
-        str,
-        typer.Option("--population", metavar="NAME", help="One that ships, or a YAML file."),
-    ] = "healthy-adults",
+    population: Population = "healthy-adults",
     people: Annotated[int, typer.Option("-n", metavar="PEOPLE", min=2, help="How many.")] = 40,
     against: Annotated[
         list[str] | None,
@@ -36,7 +30,7 @@ def who_passes(
     from ..people.loading import load_population
     from ..studies.passing import REFERENCE, people_who_pass
 
-    _refuse_humans(changes)
+    refuse_humans(changes)
     loaded = load_changed(scenario, changes)
     with option("--population"):
         drawn_from = load_population(population, trust=changes.trust)
@@ -48,16 +42,6 @@ def who_passes(
     else:
         _print(found)
     return PASSED
-
-
-def _refuse_humans(changes: Changes) -> None:
-    from cowalk.sim.basics.errors import InputError
-
-    for written, assignment in changes:
-        key = assignment.partition("=")[0].removesuffix(":")
-        if key == "human" or key.startswith(OWN):
-            what = "people of a population bring their own; only human.intention can be set here"
-            raise InputError(f"{written}: {what}")
 
 
 def _print(found: Passes) -> None:

@@ -12,7 +12,8 @@ import typer
 from cowalk.sim.basics.registry import import_address
 
 from ..files.parts import Part, parts
-from .changes import Changes, changing, load_changed, option
+from .changes import Changes, Population, changing, load_changed, option, refuse_humans
+from .estimators import ESTIMATORS, as_plain, emit_estimators
 from .output import FAILED, PASSED, Json, emit_json, emit_table, progress_bar
 
 
@@ -34,7 +35,7 @@ def register(app: typer.Typer) -> None:
                 epilog=(
                     "\b\nExamples:\n"
                     f"  cowalk compare {part.plural}\n"
-                    f"  cowalk compare {part.plural} puddle --plant unicycle -n 20 --json\n"
+                    f"  cowalk compare {part.plural} doorway --population determined -n 9\n"
                     f"  cowalk compare {part.plural} --with mymodule:MyClass"
                 ),
             )(changing(_comparing(part)))
@@ -98,34 +99,54 @@ def paper(
 
 def _comparing(part: Part) -> Callable[..., int]:
     """Return the command that compares all parts of a kind."""
+    estimates = part.kind in ESTIMATORS
 
     def compare(
         changes: Changes,
         scenario: Annotated[
             str, typer.Argument(metavar="SCENARIO", help="Name in the library, or a YAML file.")
         ] = "puddle",
+        population: Population = "healthy-adults",
         own: Annotated[
             list[str] | None,
             typer.Option(
                 "--with", metavar="MODULE:CLASS", help="One of your own as well; may be repeated."
             ),
         ] = None,
-        seeds: Annotated[int, typer.Option("-n", metavar="SEEDS", min=1, help="Runs of each.")] = 5,
+        people: Annotated[
+            int,
+            typer.Option(
+                "-n", metavar="PEOPLE", min=2, help="How many; each walks in three worlds."
+            ),
+        ] = 20 if estimates else 6,
         as_json: Json = False,
     ) -> int:
+        from ..people.loading import load_population
+
+        refuse_humans(changes)
         with option("--with"):
             for name in own or []:
                 part.registry().get(name)
         loaded = load_changed(scenario, changes)
-        with progress_bar("comparing") as progress:
-            scores = import_address(part.compare)(loaded, part.kind, own or [], seeds, progress)
-        if as_json:
-            emit_json({"scenario": loaded.name, "scores": [dataclasses.asdict(s) for s in scores]})
+        with option("--population"):
+            drawn_from = load_population(population, trust=changes.trust)
+        with progress_bar("walking") as progress:
+            study = import_address(part.compare)
+            found = study(loaded, part.kind, own or [], drawn_from, people, progress)
+        if estimates:
+            emit_json(as_plain(found)) if as_json else emit_estimators(found)
+        elif as_json:
+            said = {"scenario": loaded.name, "population": drawn_from.name, "people": people}
+            emit_json(said | {"scores": [dataclasses.asdict(score) for score in found]})
         else:
-            _records(f"{part.plural} in {loaded.name}", scores)
+            _records(f"{part.plural} in {loaded.name}, {people} {drawn_from.name}", found)
         return PASSED
 
-    compare.__doc__ = f"Score every {part.kind} in a scenario, your own as well."
+    compare.__doc__ = (
+        f"Score every {part.kind} on people who walk, your own as well."
+        if estimates
+        else f"Let people walk with every {part.kind}, your own as well."
+    )
     return compare
 
 

@@ -160,7 +160,7 @@ PARTS: tuple[Part, ...] = (
         ("automation", "smoother"),
         "cowalk.estimation.registry:SMOOTHERS",
         check="cowalk.estimation.checks.smoothers:smoother_problems",
-        compare="cowalk.scenarios.studies.estimators:compare_smoothers",
+        compare="cowalk.scenarios.studies.estimators:compare_estimators",
         default="moving-average",
     ),
     Part(

@@ -11,13 +11,15 @@ import numpy as np
 from cowalk.sim.basics.motion import Array
 
 from ..files.schema import Scenario
+from ..people.population import Population
 from ..result import RunResult
-from .side_by_side import Progress, measure_each, numbers_of
+from ..running.runner import Progress
+from .side_by_side import measure_each, numbers_of
 
 
 @dataclass(frozen=True)
 class AgentScore:
-    """How one human, or automation, fares in a scenario, mean over seeds.
+    """How one human, or automation, fares in a scenario, mean over walks of people.
 
     Attributes
     ----------
@@ -49,14 +51,15 @@ class AgentScore:
 
 def compare_agents(
     scenario: Scenario,
-    kind: str = "automation",
-    own: Sequence[str] = (),
-    seeds: int = 5,
+    kind: str,
+    own: Sequence[str],
+    population: Population,
+    people: int = 6,
     progress: Progress | None = None,
     jobs: int = -1,
 ) -> list[AgentScore]:
-    """Run a scenario with every human, or automation, in its seat (see `measure_each`)."""
-    found = measure_each(scenario, kind, own, _fared, seeds, progress, jobs)
+    """Let people walk with every automation, or as every human model (see `measure_each`)."""
+    found = measure_each(scenario, kind, own, _fared, population, people, progress, jobs)
     return [_score(name, values) for name, values in found.items()]
 
 

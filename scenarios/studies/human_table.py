@@ -5,8 +5,8 @@ from __future__ import annotations
 import io
 import math
 import re
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -16,10 +16,10 @@ from scipy.stats import bootstrap
 from cowalk.agents.registry import HUMANS
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.motion import Array
-from cowalk.sim.world.world import World
 
 from ..files.schema import Component, Scenario, with_named
-from ..running.runner import run
+from ..running.runner import Progress, run
+from .places import elsewhere
 from .side_by_side import numbers_of
 
 AUTOMATIONS_COMPARED = ("never-yields", "always-yields", "stubbornness")
@@ -29,8 +29,6 @@ BODY = ("reaction-delay", "signal-dependent-noise")
 
 Gait ripple is not among them: at +- 3 N it is as large as what the models differ by.
 """
-SHIFT = (1.0, 0.3)
-"""How far the obstacles are moved at most from seed to seed, along x and y, m."""
 METRICS = {"mean force": "N", "effort": "N s", "effort a metre": "N s/m", "time to agreement": "s"}
 """What is compared, and its unit; effort also by the metre walked, since runs differ in length."""
 EARLY = ("collision", "grip lost", "lost footing")
@@ -83,7 +81,7 @@ class Cell:
 def compare_humans(
     scenario: Scenario,
     seeds: int = 30,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
     jobs: int = -1,
     humans: Sequence[str] | None = None,
     automations: Sequence[str] = AUTOMATIONS_COMPARED,
@@ -157,7 +155,7 @@ def _measure(
             update={
                 "human": scenario.human.model_copy(update={"imperfections": body}),
                 "seed": seed,
-                "world": _shifted(scenario.world, seed),
+                "world": elsewhere(scenario.world, seed),
                 "expect": {},
             }
         )
@@ -168,17 +166,6 @@ def _measure(
     way = values["distance walked"]
     values["effort a metre"] = values["effort"] / way if way > 0.0 else math.nan
     return tuple(values[name] for name in METRICS), result.summary["end"]
-
-
-def _shifted(world: World, seed: int) -> World:
-    """Return a world with each obstacle moved by a little, drawn from the seed."""
-    rng = np.random.default_rng([seed, len(world.obstacles)])
-    shifts = rng.uniform(-1.0, 1.0, (len(world.obstacles), 2)) * SHIFT
-    obstacles = tuple(
-        replace(obstacle, x=obstacle.x + float(dx), y=obstacle.y + float(dy))
-        for obstacle, (dx, dy) in zip(world.obstacles, shifts, strict=True)
-    )
-    return replace(world, obstacles=obstacles)
 
 
 def estimate(values: Array) -> Interval:

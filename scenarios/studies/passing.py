@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -18,7 +18,7 @@ from ..files.schema import Scenario, with_named
 from ..people.person import Person, with_person
 from ..people.population import Population
 from ..result import how_it_ended
-from ..running.runner import run
+from ..running.runner import Progress, run
 
 REFERENCE = "never-yields"
 """The automation beside the scenario's own, which concedes nothing."""
@@ -102,7 +102,7 @@ def people_who_pass(
     people: int = 40,
     seed: int | None = None,
     automations: Sequence[str] = (),
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
     jobs: int = -1,
 ) -> Passes:
     """Let everybody walk through a scenario with each of several automations.

@@ -1,4 +1,4 @@
-"""All parts of a kind in one scenario: each is run with the same seeds, and measured."""
+"""All parts of a kind in one scenario: each walks with the same people, and is measured."""
 
 from __future__ import annotations
 
@@ -9,16 +9,20 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from joblib import Parallel, delayed
 
+from cowalk.agents.registry import HUMANS
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.motion import Array
 
-from ..files.parts import Part, kind_of_part
-from ..files.schema import Scenario, part_of, with_named
+from ..files.building import parameter_names
+from ..files.parts import kind_of_part
+from ..files.schema import Scenario, part_of, with_named, with_part
+from ..people.person import with_person
+from ..people.population import Population
 from ..result import RunResult
-from ..running.runner import run
+from ..running.runner import Progress, run
+from .places import Place, places
 
 Measure = Callable[[RunResult], dict[str, float]]
-Progress = Callable[[int, int], None]
 _REQUIRED = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
 
 
@@ -27,11 +31,15 @@ def measure_each(
     kind: str,
     own: Sequence[str],
     measure: Measure,
-    seeds: int,
+    population: Population,
+    people: int,
     progress: Progress | None = None,
     jobs: int = -1,
 ) -> dict[str, dict[str, Array]]:
-    """Run a scenario with every part of a kind, and measure each run.
+    """Let everybody walk with every part of a kind, and measure each run.
+
+    Body, gait, parameters, world and every noise stream are the same with each part. Where
+    humans are compared, each model walks in everybody's body, with their strength and gain.
 
     Parameters
     ----------
@@ -43,8 +51,9 @@ def measure_each(
         Compared besides the registered ones, each ``module:Class``.
     measure : callable
         Numbers of a run by name; a function of a module, since it is sent to other processes.
-    seeds : int
-        Runs a part, with the scenario's seed and the ones that follow it.
+    population : Population
+    people : int
+        Each walks three times, the obstacles elsewhere.
     progress : callable, optional
         Called with the runs done and their total.
     jobs : int
@@ -53,21 +62,17 @@ def measure_each(
     Returns
     -------
     dict of str to dict
-        By part, each number by its name, shape (seeds,). The kind's default, or else the
+        By part, each number by its name, shape (runs,). The kind's default, or else the
         scenario's part, comes first; one's own next, then by name.
 
     Raises
     ------
     InputError
-        If there is not at least one seed, a name is unknown, or a run was aborted.
+        If there are fewer than two people, a name is unknown, or a run was aborted.
     """
-    if seeds < 1:
-        raise InputError(f"seeds = {seeds}: at least 1 seed is needed", ("seeds",))
-    part = kind_of_part(kind)
-    for name in own:
-        part.registry().get(name)
-    names = _names(part, part_of(scenario, kind).name, own)
-    tasks = [(name, scenario.seed + offset) for name in names for offset in range(seeds)]
+    names = entries_of(scenario, kind, own)
+    walked = places(scenario, population, people)
+    tasks = [(name, place) for name in names for place in walked]
     outcomes = Parallel(n_jobs=jobs, return_as="generator")(
         delayed(_measured)(scenario, kind, *task, measure) for task in tasks
     )
@@ -88,9 +93,20 @@ def numbers_of(result: RunResult) -> dict[str, float]:
     return {name: math.nan if value is None else value for name, value in values.items()}
 
 
-def _names(part: Part, present: str, own: Sequence[str]) -> list[str]:
-    """Return what is compared: what needs no parameters, or has them from the scenario."""
+def entries_of(scenario: Scenario, kind: str, own: Sequence[str]) -> list[str]:
+    """Return what is compared: what needs no parameters, or has them from the scenario.
+
+    The kind's default, or else the scenario's part, comes first; one's own next, then by name.
+
+    Raises
+    ------
+    InputError
+        If a name is unknown.
+    """
+    part, present = kind_of_part(kind), part_of(scenario, kind).name
     registry = part.registry()
+    for name in own:
+        registry.get(name)
     ready = [name for name in registry.names() if name == present or not _needs(registry.get(name))]
     return list(dict.fromkeys([part.default or present, *own, present, *ready]))
 
@@ -101,10 +117,20 @@ def _needs(constructor: Callable[..., object]) -> bool:
 
 
 def _measured(
-    scenario: Scenario, kind: str, name: str, seed: int, measure: Measure
+    scenario: Scenario, kind: str, name: str, place: Place, measure: Measure
 ) -> dict[str, float]:
-    chosen = with_named(scenario, kind, name)
-    result = run(chosen.model_copy(update={"seed": seed}))
+    chosen = with_person(place.scenario, place.person)
+    if kind == "human":
+        human = part_of(with_named(scenario, kind, name), kind)
+        own = parameter_names(HUMANS.get(name))
+        theirs = chosen.human.parameters
+        traits = {each: theirs[each] for each in ("force_max", "gain") if each in theirs}
+        parameters = {key: value for key, value in traits.items() if key in own}
+        update = {"name": name, "parameters": human.parameters | parameters}
+        chosen = with_part(chosen, kind, chosen.human.model_copy(update=update))
+    else:
+        chosen = with_named(chosen, kind, name)
+    result = run(chosen)
     if result.error is not None:
-        raise InputError(f"{kind} {name!r}, seed {seed}: {result.error}")
+        raise InputError(f"{kind} {name!r}, {place.name}: {result.error}")
     return measure(result)

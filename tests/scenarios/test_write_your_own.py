@@ -62,7 +62,7 @@ def test_the_commands_that_the_page_shows_work(my_parts, cowalk):
     for line in shown:
         _, command, *arguments = line.split()
         if command == "compare":  # few and short ones: this is about the words
-            arguments += ["-n", "1", "--set", "duration=2", "--set", "plant=unicycle"]
+            arguments += ["-n", "2", "--set", "duration=4", "--set", "plant=unicycle"]
             arguments = [each for each in arguments if each not in ("--plant", "unicycle")]
         code, _, error = cowalk(command, *arguments, *["--no-figure"] * (command == "run"))
         assert code == 0 or (command, code) == ("run", 1), (line, error)

@@ -74,12 +74,13 @@ def test_a_low_pass_lags_by_its_time_constant():
     "estimate",
     [
         np.full(600, 0.4),
+        np.full(600, 0.537283),
         0.3 + 0.1 * T,
         np.random.default_rng(0).standard_normal(600),
         -SIGNALS["steps"],
         np.full(600, np.nan),
     ],
-    ids=["constant", "line", "noise", "upside down", "silent"],
+    ids=["constant", "another", "line", "noise", "upside down", "silent"],
 )
 def test_what_does_not_follow_the_truth_has_no_lag(estimate):
     assert np.isnan(lag(estimate, SIGNALS["steps"], PERIOD))

@@ -4,7 +4,6 @@ import pty
 import subprocess
 import sys
 import time
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +11,6 @@ import pytest
 
 from cowalk.scenarios.cli import output as cli_output
 from cowalk.scenarios.studies import calibration, paper
-from cowalk.scenarios.studies import estimators as compare
 from cowalk.scenarios.trace.trace import Trace
 
 
@@ -380,26 +378,37 @@ def test_paper_searches_with_the_seed_given(cowalk, monkeypatch):
     assert "--set 'automation.negotiation.horizon=3'" in out
 
 
-def test_compare_shows_whatever_scores_there_are(cowalk, scenario_file, monkeypatch):
-    @dataclass
-    class Score:
-        smoother: str
-        lag_s: float
-
-    def scores(scenario, kind, own, seeds, progress):
-        assert (kind, own) == ("smoother", [])
-        progress(seeds, seeds)
-        return [Score(scenario.name, float(seeds)), Score("nothing", float("nan"))]
-
-    monkeypatch.setattr(compare, "compare_smoothers", scores)
-    code, out, _ = cowalk("compare", "smoothers", scenario_file(), "-n", 7)
+@pytest.mark.parametrize("kind", ["smoothers", "observers", "automations"])
+def test_compare_lets_people_walk(cowalk, kind):
+    given = ("compare", kind, "puddle", "-n", 4, "--plant", "unicycle", "--set", "duration=8")
+    code, out, _ = cowalk(*given)
     assert code == 0
-    assert "lag s" in out
-    _, out, _ = cowalk("compare", "smoothers", scenario_file(), "-n", 7, "--json")
-    assert json.loads(out)["scores"] == [
-        {"smoother": "walk", "lag_s": 7.0},
-        {"smoother": "nothing", "lag_s": None},
-    ]
+    if kind == "automations":
+        assert "healthy-adults" in out
+        return
+    assert "% of rows identifiable" in out
+    assert "(calibrated paper)" in out
+    assert out.index("(prior)") < out.index("(oracle)")
+    assert ("wish, rad/s" in out) == (kind == "observers")
+    found = json.loads(cowalk(*given, "--json")[1])
+    assert (found["population"], found["people"], found["worlds"]) == ("healthy-adults", 4, 3)
+    (prior,) = (
+        score
+        for each in found["dimensions"]
+        for score in each["scores"]
+        if (each["dimension"], score["name"]) == ("omega", "prior")
+    )
+    assert prior["rmse"]["low"] <= prior["rmse"]["value"] <= prior["rmse"]["high"]
+    assert prior["gap_closed"] is None
+
+
+def test_compare_refuses_what_people_bring_along(cowalk):
+    for given in (("--human", "steady"), ("--set", "human.parameters.gain=3")):
+        code, _, error = cowalk("compare", "smoothers", "puddle", *given)
+        assert code == 2
+        assert "people of a population bring their own" in error
+    code, _, error = cowalk("compare", "smoothers", "--population", "helthy-adults")
+    assert (code, "did you mean" in error) == (2, True)
 
 
 def test_long_work_says_how_far_it_is_where_there_is_no_terminal(capsys, monkeypatch):

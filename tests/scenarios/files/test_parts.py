@@ -260,7 +260,7 @@ def test_show_marks_every_value_and_runs_nothing(cowalk, folder):
 
 def test_comparisons_take_the_same_options(cowalk, scenario_file):
     file = scenario_file(("duration: 3.0", "duration: 0.5"))
-    for command in (("compare", "smoothers", file, "-n", 1), ("humans", "table", file)):
+    for command in (("compare", "smoothers", file, "-n", 2), ("humans", "table", file)):
         _, _, err = cowalk(*command, "--observer", "papr")
         assert "--observer papr: automation.observer.name: unknown observer 'papr'" in err
         assert "did you mean 'human'" in cowalk(*command, "--set", "humn=steady")[2]

@@ -1,14 +1,25 @@
 """Humans and automations in the loop, scored by what walking together costs."""
 
+import numpy as np
+import pytest
+
 from cowalk.agents import AUTOMATIONS, HUMANS
 from cowalk.scenarios import load
+from cowalk.scenarios.people.loading import load_population
 from cowalk.scenarios.studies.agents import compare_agents
+from cowalk.scenarios.studies.places import places
+from cowalk.sim.basics.errors import InputError
 
-QUICK = ("plant=unicycle", "duration=12")
+QUICK = ("plant=unicycle", "duration=9")
 
 
-def test_every_automation_is_scored_the_scenarios_first():
-    scores = compare_agents(load("puddle", QUICK), seeds=2, jobs=1)
+@pytest.fixture(scope="module")
+def healthy():
+    return load_population("healthy-adults")
+
+
+def test_every_automation_is_scored_the_scenarios_first(healthy):
+    scores = compare_agents(load("puddle", QUICK), "automation", [], healthy, 2, jobs=1)
     assert [score.name for score in scores] == ["stubbornness", "always-yields", "never-yields"]
     assert {score.name for score in scores} == set(AUTOMATIONS)
     by_name = {score.name: score for score in scores}
@@ -16,15 +27,27 @@ def test_every_automation_is_scored_the_scenarios_first():
     assert by_name["always-yields"].lowest_target_utility == 0.0
     for score in scores:
         assert score.effort > score.mean_force > 0.0
-        assert score.agreed <= score.runs == 2
-        assert score.reached_goal == 0  # 12 s are too short
+        assert score.agreed <= score.runs == 6
+        assert score.reached_goal == 0  # 9 s are too short
 
 
-def test_humans_that_need_parameters_are_left_out_unless_the_scenario_gives_them():
-    scores = compare_agents(load("puddle", (*QUICK, "duration=4")), "human", seeds=1, jobs=1)
+def test_humans_that_need_parameters_are_left_out_unless_the_scenario_gives_them(healthy):
+    scenario = load("puddle", (*QUICK, "duration=4", "sensor.noise_density=0.0"))
+    scores = compare_agents(scenario, "human", [], healthy, 2, jobs=1)
     names = [score.name for score in scores]
     assert names[0] == "escalating"
     assert set(HUMANS) - set(names) == {"recorded"}
     forces = {score.name: score.mean_force for score in scores}
-    assert forces["open-loop"] < 0.05, "it pushes nothing: this is the sensor's noise"
     assert forces["steady"] > 0.1
+
+
+def test_people_walk_in_three_worlds_each_with_a_seed_of_its_own(healthy):
+    walked = places(load("puddle"), healthy, 4)
+    assert len(walked) == len({place.scenario.seed for place in walked}) == 12
+    assert len({place.scenario.world.obstacles[0].x for place in walked}) == 12
+    assert [place.name for place in walked[:4]] == ["person 1"] * 3 + ["person 2"]
+    assert walked[0].person == walked[2].person != walked[3].person
+    shifts = np.array([place.scenario.world.obstacles[0].y for place in walked]) + 0.75
+    assert (np.abs(shifts) <= 0.3).all()
+    with pytest.raises(InputError, match="people = 1"):
+        places(load("puddle"), healthy, 1)
