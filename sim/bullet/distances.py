@@ -71,6 +71,11 @@ class EngineClearance:
         self._free = weakref.finalize(self, SHARED.leave, self._client, self._made)
         self._free.atexit = False  # by then the engine may be gone
         self._time = 0.0
+        with SHARED.lock:
+            self._build(world, parts)
+
+    def _build(self, world: World, parts: Sequence[tuple[int, Outline]]) -> None:
+        """Stand everything up in the shared world."""
         self._walkers = [
             (walker, self._body(self._round(walker.radius))) for walker in world.pedestrians
         ]
@@ -151,6 +156,12 @@ class EngineClearance:
 
     def __call__(self, time: float, *poses: tuple[float, float, float]) -> tuple[float, bool]:
         """See `cowalk.sim.world.clearance.Distances`."""
+        with SHARED.lock:
+            return self._measured(time, poses)
+
+    def _measured(
+        self, time: float, poses: tuple[tuple[float, float, float], ...]
+    ) -> tuple[float, bool]:
         client, place = self._client, engine.resetBasePositionAndOrientation
         passed = abs(time - self._time)
         self._time = time
