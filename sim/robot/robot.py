@@ -17,6 +17,7 @@ from ..basics.frames import Vector
 from ..basics.lists import require_entries
 from ..basics.registry import did_you_mean
 from ..basics.validators import Range, require, require_range, require_text
+from ..urdf.meshes import read_mesh
 from ..urdf.posture import put_joints
 from ..urdf.read import left_right_swapped, link_frames, read_robot
 from ..urdf.rigid import Rigid, lump
@@ -172,7 +173,8 @@ def _absolute_meshes(root: ElementTree.Element, folder: Path) -> None:
     Raises
     ------
     InputError
-        If there is no such file, or it is to be seen and of a kind that is not drawn.
+        If there is no such file, it cannot be read, or is to be seen and of a kind that is not
+        drawn.
     """
     for link in root.findall("link"):
         for kind in ("collision", "visual"):
@@ -185,6 +187,10 @@ def _absolute_meshes(root: ElementTree.Element, folder: Path) -> None:
                 if kind == "visual" and path.suffix.lower() not in DRAWN:
                     raise InputError(f"{fault}: must be one of {', '.join(DRAWN)} to be drawn")
                 mesh.set("filename", str(path))
+                try:
+                    read_mesh(str(path))
+                except ValueError as error:
+                    raise InputError(f"link {link.get('name', '')!r}: {error}") from error
 
 
 def _mesh_path(name: str, folder: Path) -> Path:
@@ -197,7 +203,13 @@ def _mesh_path(name: str, folder: Path) -> Path:
 
 
 def _locked(root: ElementTree.Element) -> str:
-    """Return the robot with its joints fixed where they are, for who draws it."""
+    """Return the robot with its joints fixed where they are, for who draws it.
+
+    Without textures, which would be further files.
+    """
+    for material in root.iter("material"):
+        for texture in material.findall("texture"):
+            material.remove(texture)
     for joint in root.findall("joint"):
         joint.set("type", "fixed")
         for part in list(joint):

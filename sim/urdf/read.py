@@ -16,6 +16,8 @@ from .unexpanded import macro, undeclared
 
 MOST_BYTES = 20_000_000
 """Of a URDF without its meshes; published ones have less than a hundredth (inferred)."""
+DEEPEST = 64
+"""Elements within elements (inferred): URDF has five."""
 
 
 def read_robot(path: Path) -> ElementTree.Element:
@@ -37,12 +39,22 @@ def read_robot(path: Path) -> ElementTree.Element:
         root = ElementTree.fromstring(data)
     except (ElementTree.ParseError, LookupError, ValueError) as error:  # an unknown encoding
         raise _faulty(path, undeclared(data) or f"no XML: {error}") from error
+    if _depth(root) > DEEPEST:
+        raise _faulty(path, f"its elements are nested more than {DEEPEST} deep")
     if left := macro(root):
         raise _faulty(path, left)
     if root.tag != "robot" or root.find("link") is None:
         raise _faulty(path, "no <robot> with a <link> in it")
     check_urdf(root)
     return root
+
+
+def _depth(root: ElementTree.Element) -> int:
+    """Return how deep elements are nested, as far as `DEEPEST` tells."""
+    depth, level = 0, [root]
+    while level and depth <= DEEPEST:
+        depth, level = depth + 1, [below for element in level for below in element]
+    return depth
 
 
 def _faulty(path: Path, what: str) -> InputError:

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from io import BytesIO
-from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..basics.errors import InputError
-from ..basics.file_names import read_file
 from ..basics.frames import Frame, within
 from ..basics.motion import Array
 from ..world.outline import SIDES, Disc, Outline, hull
 from .accepted import number, numbers
+from .meshes import read_mesh
 from .read import link_frames, origin
 
 FARTHEST = 5.0
@@ -137,39 +135,7 @@ def _solid(link: str, element: ElementTree.Element, frame: Frame) -> Solid:
         rim = radius * np.stack((np.cos(turn), np.sin(turn), 0.0 * turn), axis=-1)
         return Solid(link, placed((ends[:, None] + rim).reshape(-1, 3)))
     try:
-        points, faces = _mesh(shape.get("filename", ""))
+        points, faces = read_mesh(shape.get("filename", ""))
     except ValueError as error:
         raise InputError(f"link {link!r}: {error}") from error
     return Solid(link, placed(points * numbers(shape, "scale")), faces=faces)
-
-
-def _mesh(name: str) -> tuple[Array, NDArray[np.int64]]:
-    """Return the vertices of a mesh file, shape (n, 3), m, and its triangles, shape (m, 3).
-
-    A file that states its unit, as COLLADA does, is read in it; others are in m. Which way is
-    up in COLLADA is not followed, as robots are published.
-
-    Raises
-    ------
-    ValueError
-        If it cannot be read.
-    """
-    # Slow to import, and needed for meshes alone.
-    import trimesh
-
-    try:
-        # Read by us: no reader then opens another file that this one names, or waits for a pipe.
-        data = read_file(Path(name), MOST_BYTES)
-        mesh = trimesh.load_mesh(BytesIO(data), file_type=Path(name).suffix.lower().lstrip("."))
-        if mesh.units is not None:
-            mesh.convert_units("meters")
-        vertices, faces = np.asarray(mesh.vertices, dtype=float), np.asarray(mesh.faces)
-    except ImportError as error:
-        raise ValueError(f"mesh {name!r}: {error}; or give it as STL or OBJ") from error
-    except Exception as error:  # readers of a dozen formats raise what they like
-        raise ValueError(
-            f"mesh {name!r} cannot be read: {type(error).__name__}: {error}"
-        ) from error
-    if not len(faces) or not np.isfinite(vertices).all():
-        raise ValueError(f"mesh {name!r}: must have triangles with finite corners")
-    return vertices, faces

@@ -7,8 +7,11 @@ watched; a run is the same whether or not anybody looks.
 from __future__ import annotations
 
 import math
+import shutil
 import time
+import weakref
 from dataclasses import replace
+from tempfile import mkdtemp
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +22,7 @@ from ..body.gait import step_frequency
 from ..engine.engine import connect, engine, free_with, load
 from ..robot.coupling import THICKNESS
 from ..urdf.colours import one_colour_a_link
+from ..urdf.meshes import copy_meshes
 from ..world.world import World
 from .camera import Camera
 from .look import Look
@@ -75,7 +79,12 @@ class Viewer:
                 engine.COV_ENABLE_RENDERING, 0, physicsClientId=self._client
             )
         self._look = look
-        self._robot = load(self._client, one_colour_a_link(look.robot))
+        robot = look.robot
+        if "<mesh" in robot:
+            folder = mkdtemp(prefix="cowalk-")  # for as long as somebody asks what is shown
+            weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
+            robot = copy_meshes(robot, folder)
+        self._robot = load(self._client, one_colour_a_link(robot))
         self._human = load(self._client, one_colour_a_link(figure_urdf(look.human)))
         self._joints = {
             engine.getJointInfo(self._human, joint, self._client)[1].decode(): joint
