@@ -6,7 +6,7 @@ PYTHON ?= $(shell for python in python3.11 python3.12 python3 python; do \
 	"$$python" -c 'import sys; sys.exit(not (3, 11) <= sys.version_info < (3, 13))' 2>/dev/null \
 	&& echo "$$python" && break; done)
 
-.PHONY: help run test lint types bench learn robots clean
+.PHONY: help run test fuzz soak lint types bench learn robots clean
 
 help:  ## Show the targets
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 8
@@ -29,6 +29,12 @@ run: .venv/run  ## Run the closed-loop scenario and draw its picture
 
 test: .venv/develop  ## Run all tests
 	$(BIN)/python -m pytest -n auto --dist loadfile
+
+fuzz: .venv/develop  ## Attack with many files that strangers might send
+	$(BIN)/python -m pytest -m fuzz tests
+
+soak: .venv/develop  ## Run a thousand adversarial scenarios on PyBullet, and look for leaks
+	$(BIN)/python -m pytest -m soak tests
 
 lint: .venv/develop  ## Check style, formatting, and who imports whom
 	$(BIN)/ruff check .
