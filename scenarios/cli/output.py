@@ -31,8 +31,11 @@ _answers: TextIO | None = None
 
 def complain(message: str) -> None:
     """Write one line on standard error."""
+    line = " ".join(message.split())
+    # A file's text may hold what a terminal takes for a command.
+    shown = "".join(sign if sign.isprintable() else "\N{REPLACEMENT CHARACTER}" for sign in line)
     with suppress(OSError):  # closed: there is nobody to tell
-        print(f"cowalk: {' '.join(message.split())}", file=sys.stderr)
+        print(f"cowalk: {shown}", file=sys.stderr)
 
 
 def emit_json(value: Any) -> None:

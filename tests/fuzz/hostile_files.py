@@ -283,7 +283,7 @@ def main() -> None:
         if foreign:
             came = f"read {foreign}"
             foreign.clear()
-        print(came, file=out, flush=True)
+        print(came.encode("unicode_escape").decode(), file=out, flush=True)
 
 
 if __name__ == "__main__":

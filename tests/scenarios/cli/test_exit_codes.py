@@ -211,6 +211,14 @@ def test_what_parts_print_never_reaches_the_json(cowalk, scenario_file, folder):
     assert json.loads(out)["scenario"]["name"] == "walk"
 
 
+def test_a_complaint_is_one_line_that_no_terminal_obeys(cowalk, folder):
+    (folder / "bad.yaml").write_text('"\\e[2J\\u202ename\\r\\n\\x85": 1\n')
+    code, _, err = cowalk("run", "bad.yaml")
+    assert code == 2
+    assert err.endswith("\n")
+    assert err[:-1].isprintable()
+
+
 def test_documents_say_what_the_codes_mean():
     text = Path(__file__).parents[3].joinpath("docs/exit-codes.md").read_text()
     for code in ("| 0 |", "| 1 |", "| 2 |", "| 3 |", "| 129, 130, 143 |"):
