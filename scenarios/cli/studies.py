@@ -60,13 +60,14 @@ def paper(
         with option("--out"):
             writable_folder(out)
     found: list[str] = []
+    searched: dict[str, tuple[float, float]] = {}
     if calibrate:
+        from ..studies.calibration import SEARCHED, overrides
         from ..studies.calibration import calibrate as search
-        from ..studies.calibration import overrides
 
         with progress_bar("calibrating") as progress:
             constants, rows = search(seed, progress)
-        found = overrides(constants)
+        found, searched = overrides(constants), SEARCHED
     else:
         from ..studies.paper import constants as inferred
         from ..studies.paper import reproduce
@@ -82,16 +83,21 @@ def paper(
             {
                 "rows": [dataclasses.asdict(row) for row in rows],
                 "inferred": constants,
+                "searched": searched,
                 "figures": files,
                 "passed": all(row.passed for row in rows),
             }
         )
     else:
         _records("reported in the paper, and ours", rows)
-        title = f"found with seed {seed}" if calibrate else "inferred: the paper does not print"
-        emit_table(title, ("constant", "value"), constants.items())
-        if found:
+        if calibrate:
+            header = ("constant", "value", "searched from", "to")
+            ranges = [(name, value, *searched[name]) for name, value in constants.items()]
+            emit_table(f"found with seed {seed}", header, ranges)
             print("to run them: cowalk run paper-open-loop", *(f"--set '{each}'" for each in found))
+        else:
+            title = "inferred: the paper does not print"
+            emit_table(title, ("constant", "value"), constants.items())
         for file in files:
             print(f"picture:  {file}")
     return PASSED if all(row.passed for row in rows) else FAILED

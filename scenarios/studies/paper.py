@@ -72,7 +72,8 @@ def measure(
 
     Settled is the mean over the last five negotiations before the force changes; the steep
     fall ends with the last of the first drops that are at least half the largest; turn rates
-    are equal when they are within 5 % of the bound.
+    are equal again from the first negotiation on after which they stay within 5 % of the bound
+    until the run ends, infinity if they end apart: curves that cross and part are not equal.
 
     Parameters
     ----------
@@ -100,8 +101,10 @@ def measure(
     push, release = at(12.0), at(33.0)
     drops = -np.diff(target_utility[push - 1 : at(19.0)], axis=0)
     shallow = drops < 0.5 * drops.max(axis=0)
-    agrees = np.abs(omega - wish)[release:] <= AGREED * omega_bound
-    never = np.where(agrees.any(axis=0), 0.0, np.inf)
+    apart = np.abs(omega - wish)[release:] > AGREED * omega_bound
+    # Negotiations since the last that was apart, counted from the end of the run.
+    together = np.where(apart.any(axis=0), np.argmax(apart[::-1], axis=0), len(apart))
+    since = np.append(time[release:], np.inf)
     return {
         "first": stubbornness[push],
         "next": stubbornness[push + 1],
@@ -110,7 +113,7 @@ def measure(
         "start": target_utility[0],
         "lowest": target_utility[at(27.0) : release].min(axis=0),
         "steep_until": time[push - 1 + np.argmax(shallow, axis=0)],
-        "agrees": time[release + np.argmax(agrees, axis=0)] + never,
+        "agrees": since[len(apart) - together],
         "largest_y": y.max(axis=0),
     }
 

@@ -30,8 +30,8 @@ DIMENSIONS = ("omega", "both")
 class NegotiationSettings:
     """Settings of the negotiation of Schneider et al. (arXiv 2407.17275).
 
-    The paper prints only ``l = 5`` and v = 0.8 m/s; every default here is inferred, by
-    ``cowalk paper --calibrate`` where the paper's scenario determines it.
+    The paper prints only ``l = 5`` and v = 0.8 m/s; every default here is inferred. What its
+    own scenario is run with, ``paper-open-loop`` says (docs/model.md).
 
     Parameters
     ----------

@@ -1,6 +1,7 @@
 import json
 import os
 import pty
+import re
 import subprocess
 import sys
 import time
@@ -373,9 +374,12 @@ def test_paper_searches_with_the_seed_given(cowalk, monkeypatch):
     monkeypatch.setattr(calibration, "calibrate", search)
     code, out, _ = cowalk("paper", "--calibrate", "--seed", 3, "--json")
     assert code == 0
-    assert json.loads(out)["inferred"] == {"horizon tau, s": 3.0}
+    shown = json.loads(out)
+    assert shown["inferred"] == {"horizon tau, s": 3.0}
+    low, high = shown["searched"]["horizon tau, s"]
     _, out, _ = cowalk("paper", "--calibrate", "--seed", 3)
     assert "--set 'automation.negotiation.horizon=3'" in out
+    assert re.search(rf"horizon tau, s +3 +{low:g} +{high:g}\b", out)
 
 
 @pytest.mark.parametrize("kind", ["smoothers", "observers", "automations"])
