@@ -201,6 +201,7 @@ def _say_file(what: str, file: str) -> None:
 
 def _report(result: RunResult, files: dict[str, str]) -> None:
     from ..expect.verdict import explain
+    from ..files.assembling import said_parts
     from ..result import how_it_ended
     from ..trace.sensor_faults import sensor_faults
 
@@ -220,6 +221,8 @@ def _report(result: RunResult, files: dict[str, str]) -> None:
                 for verdict in result.verdicts
             ],
         )
+    if not all(verdict.passed for verdict in result.verdicts):
+        print(f"run:      {said_parts(result.scenario)}")
     print(f"ended by: {how_it_ended(summary)}")
     if faults := sensor_faults(summary):
         print(f"sensor:   {faults}")

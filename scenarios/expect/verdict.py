@@ -41,8 +41,8 @@ class Verdict:
     passed : bool
     violated_at : float or None
         Time in s at which a failed formula was first violated: within an outermost ``always``
-        the first row that breaks it, else the row that settled it, such as the last one of an
-        ``eventually``.
+        the first row that breaks it, else the row that settled it. None where no row did: an
+        ``eventually`` lacks one that holds, others are settled by the run's end alone.
     reason : str or None
         Why it failed, where that is not a matter of a margin.
     closest_at : float or None
@@ -51,7 +51,7 @@ class Verdict:
         What it compares, by its text, and the value that it had then.
     vacuous : str or None
         How a formula that holds would also do so if something that it asks for never did (see
-        `cowalk.scenarios.expect.vacuity`).
+        `cowalk.scenarios.expect.vacuity`), or which of its columns is unknown in the whole run.
     """
 
     name: str
@@ -151,7 +151,7 @@ def _judge(name: str, text: str, columns: Mapping[str, Array], period: float) ->
     margin = float(margins(formula.root, columns, period)[0])
     if margin > 0.0:
         margin = 0.0 if margin == BARELY else margin
-        empty = vacuous(formula.root, columns, period)
+        empty = _unknown(formula, columns) or vacuous(formula.root, columns, period)
         return Verdict(name, text, margin, True, vacuous=empty)
     at_best = float(margins(formula.root, columns, period, optimistic=True)[0])
     return _failed(name, text, formula, columns, period, at_best)
@@ -172,6 +172,7 @@ def _failed(
     undecided = at_best > 0.0
     failure = Failure(columns, period, optimistic=not undecided)
     closest = None if undecided else failure.closest(formula.root)
+    violated = failure.first_violation(formula.root)
     reason = None
     if undecided:
         reason = _not_a_number(formula, columns, period)
@@ -182,7 +183,7 @@ def _failed(
         text,
         np.nan if undecided else 0.0 if at_best == -BARELY else at_best,
         False,
-        _time(columns, failure.first_violation(formula.root), period),
+        None if violated is None else _time(columns, violated, period),
         reason,
         None if closest is None else _time(columns, closest.row, period),
         None if closest is None else closest.values,
@@ -193,7 +194,17 @@ def _time(columns: Mapping[str, Array], row: int, period: float) -> float:
     return float(columns["t"][row]) if "t" in columns else (row + 1) * period
 
 
+def _unknown(formula: Formula, columns: Mapping[str, Array]) -> str | None:
+    """Return which column of a formula says nothing in the whole run, or None."""
+    for column in formula.columns:
+        if np.isnan(columns[column]).all():
+            return f"{column} is unknown in this run: not a number (NaN) in any row"
+    return None
+
+
 def _not_a_number(formula: Formula, columns: Mapping[str, Array], period: float) -> str:
+    if unknown := _unknown(formula, columns):
+        return unknown
     for column in formula.columns:
         missing = np.isnan(columns[column])
         if missing.any():

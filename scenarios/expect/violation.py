@@ -61,18 +61,19 @@ class Failure:
         begin, end = (min(row + count, self._rows - 1) for count in steps(node, self._period))
         return slice(begin, end + 1)
 
-    def first_violation(self, node: Node) -> int:
+    def first_violation(self, node: Node) -> int | None:
         """Return the row that first violated a formula: see `Verdict.violated_at`."""
         if kind(node) in ("Always", "TimedAlways"):
             window = self._window(node, 0)
             return self._first_broken(node, window)
         if kind(node) == "Conjunction":
-            return min(
-                self.first_violation(child)
-                for child in node.children
-                if self._margins(child)[0] < 0.0
-            )
-        return min(self._horizon(node), self._rows - 1)
+            failing = [child for child in node.children if self._margins(child)[0] < 0.0]
+            rows = [self.first_violation(child) for child in failing]
+            return min((row for row in rows if row is not None), default=None)
+        if kind(node) in ("Eventually", "TimedEventually"):
+            return None  # it lacks a row that holds; none breaks it
+        horizon = self._horizon(node)
+        return horizon if horizon < self._rows else None
 
     def _first_broken(self, always: Node, window: slice) -> int:
         """Return the first row of a window that breaks an ``always``."""
@@ -80,9 +81,9 @@ class Failure:
         return int(window.start) + int(np.argmax(broken))
 
     def _horizon(self, node: Node) -> int:
-        """Return the last row that a formula looks at, seen from the first one."""
+        """Return the last row that a formula asks for, seen from the first one."""
         if kind(node) in _AHEAD:
-            return self._rows - 1
+            return self._rows
         own = int("Next" in kind(node))
         if is_bounded_future(node):
             own = steps(node, self._period)[1]

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 
 from cowalk.sim.basics.motion import Array
 
+from ..expect.verdict import explain
 from ..result import LOST_FOOTING, how_it_ended
 from ..trace.sensor_faults import sensor_faults
 from .panels import PAPER_PANELS, columns, draw_panels
@@ -115,12 +116,9 @@ def _footer(result: RunResult) -> list[str]:
     if faults := sensor_faults(result.summary):
         lines += textwrap.wrap(f"sensor: {faults}", LINE)
     for verdict in result.verdicts:
-        why = verdict.reason or f"margin {verdict.robustness:+.3g}"
-        if verdict.violated_at is not None and verdict.reason is None:
-            why += f", first violated at {verdict.violated_at:.4g} s"
         word = "pass" if verdict.passed else "FAIL"
         lines += textwrap.wrap(
-            f"{word}   {verdict.name}: {verdict.formula}   ({why})",
+            f"{word}   {verdict.name}: {verdict.formula}   ({explain(verdict)})",
             LINE,
             subsequent_indent=" " * 12,
         )

@@ -55,7 +55,7 @@ def test_each_expectation_is_a_test_with_a_short_failure(scenarios):
         [
             "expectation: goes far",
             "formula:     eventually (x >= 10.0)",
-            "fails:       margin -8.*, closest at t = 2 s with x = 1.6, first violated at t = 2 s",
+            "fails:       margin -8.*, closest at t = 2 s with x = 1.6",
             "run:         seed 0; human steady; automation never-yields; *plant unicycle",
             "to see the run: cowalk run *good.scenario.yaml",
         ]

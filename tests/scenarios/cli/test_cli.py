@@ -153,6 +153,10 @@ def test_a_failed_expectation_is_named_with_margin_and_time(cowalk, scenario_fil
     assert "not far" in line
     assert "margin -1.38" in line
     assert "first violated at t = 1.3 s" in line
+    (parts,) = [line for line in out.splitlines() if line.startswith("run: ")]
+    assert all(part in parts for part in ("seed", "human", "automation", "plant")), parts
+    _, out, _ = cowalk("run", scenario_file())
+    assert "run: " not in out
 
 
 def test_json_alone_is_on_standard_output_even_with_the_engine(scenario_file):

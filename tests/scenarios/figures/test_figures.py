@@ -288,9 +288,9 @@ def test_heading_and_verdicts():
         assert part in heading.replace("\n", " ")
     first, second, third = figure.get_supxlabel().split("\n")
     assert first.startswith("pass   dry")
-    assert "+0.132" in first
+    assert "margin 0.132" in first
     assert second.startswith("FAIL   gentle")
-    assert "-1.1, first violated at 9.85 s" in second
+    assert "-1.1, first violated at t = 9.85 s" in second
     assert "not a number" in third
     assert "nan" not in third
 
