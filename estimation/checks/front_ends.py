@@ -9,13 +9,12 @@ import numpy as np
 
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.rates import Rates
-from cowalk.sim.basics.validators import shown
+from cowalk.sim.basics.validators import are_numbers, shown
 
 from .rules import (
     RETURNED,
     Kept,
     attempt,
-    is_number,
     problems_of,
     raise_problems,
     repeat_faults,
@@ -105,7 +104,7 @@ def _signal_faults(part: Any, found: dict[str, None]) -> Iterator[str]:
                 "after 20 s at the latest, or say passes_constant = False in the class"
             )
     stated = attempt("delay fails after reset", getattr, part, "delay", None)
-    if not is_number(stated) or not 0.0 <= float(stated) < np.inf:
+    if not are_numbers(stated) or not 0.0 <= float(stated) < np.inf:
         yield (
             f"delay is {shown(stated)} after reset: state by how many s a slow signal comes "
             "later, 0 or more"

@@ -14,7 +14,7 @@ import numpy as np
 from cowalk.sim.basics.errors import InputError, PartError
 from cowalk.sim.basics.motion import Array
 from cowalk.sim.basics.registry import marked_kind
-from cowalk.sim.basics.validators import shown
+from cowalk.sim.basics.validators import are_numbers, shown
 
 Methods = Mapping[str, tuple[tuple[str, ...], str]]
 """Methods of a kind of part: the arguments they are called with, and how each is declared."""
@@ -257,11 +257,5 @@ def extra_faults(what: str, extras: Any, columns: Mapping[str, str]) -> Iterator
         if name not in columns:
             declared = ", ".join(columns) or "nothing"
             yield f"{what} has {name!r}, columns declares {declared}: add it there with its unit"
-        if not is_number(value):
+        if not are_numbers(value):
             raise Broken(f"{what}[{name!r}] is {shown(value)}: give one number")
-
-
-def is_number(value: Any) -> bool:
-    """Return whether a value is one number, of Python or NumPy."""
-    found = np.asarray(value) if isinstance(value, float | int | np.generic | np.ndarray) else None
-    return found is not None and not found.ndim and found.dtype.kind in "fiub"

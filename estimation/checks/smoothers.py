@@ -9,14 +9,13 @@ from typing import Any
 import numpy as np
 
 from cowalk.sim.basics.motion import Array
-from cowalk.sim.basics.validators import shown
+from cowalk.sim.basics.validators import are_numbers, shown
 
 from .rules import (
     RETURNED,
     Broken,
     Kept,
     attempt,
-    is_number,
     problems_of,
     raise_problems,
     repeat_faults,
@@ -114,7 +113,7 @@ def _smoothed(part: Any, initial: Array, values: list[Array], found: dict[str, N
         )
         if given.ndim:
             require_array("update returned", smoothed, given.shape, _CURE)
-        elif not is_number(smoothed):
+        elif not are_numbers(smoothed):
             raise Broken(f"update returned {shown(smoothed)} for one number: {_CURE}")
         if isinstance(smoothed, np.ndarray) and smoothed is not given:
             kept.keep(f"update {RETURNED}", smoothed)

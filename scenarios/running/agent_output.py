@@ -11,7 +11,7 @@ import numpy as np
 from cowalk.agents.basics.protocols import Belief, Truth
 from cowalk.sim.basics.errors import PartError
 from cowalk.sim.basics.motion import TwistBounds
-from cowalk.sim.basics.validators import said
+from cowalk.sim.basics.validators import are_numbers, said
 
 _FORCE = "the force [fx, fy] in N"
 _TWIST = "the twist [v, omega] in m/s and rad/s"
@@ -102,7 +102,7 @@ def require_belief(automation: object, belief: Any, columns: Mapping[str, str]) 
                 raise PartError(automation, what)
     for name in _NUMBERS:
         value = getattr(belief, name)
-        if not _is_one_number(value):
+        if not are_numbers(value):
             raise PartError(automation, f"belief().{name} is {said(value)}; it must be one number")
     if not isinstance(belief.extras, Mapping):
         found = f"belief().extras is {said(belief.extras)}"
@@ -111,16 +111,9 @@ def require_belief(automation: object, belief: Any, columns: Mapping[str, str]) 
         if name not in columns:
             known = ", ".join(columns) or "nothing"
             raise PartError(automation, f"belief().extras has {name!r}; columns declares {known}")
-        if not _is_one_number(value):
+        if not are_numbers(value):
             found = f"belief().extras has {name} = {said(value)}"
             raise PartError(automation, f"{found}; it must be one number")
-
-
-def _is_one_number(value: Any) -> bool:
-    if isinstance(value, float | int):
-        return True
-    array = isinstance(value, np.number | np.ndarray)
-    return array and not value.ndim and value.dtype.kind in _REAL
 
 
 _REAL = "fiu"

@@ -22,11 +22,8 @@ from ..files.schema import Scenario
 from ..people.population import Population
 from ..running.agent_output import require_force, require_twist
 from ..running.build import make_env, seeds_of, situation_of
-from .partners import Partners
+from .partners import SEEDS, Partners
 from .spaces import LearnerAction, LearnerObservation
-
-MOST = 2**32
-"""Above the seed of an episode that `reset` is given none for."""
 
 
 class SingleSeatEnv(gymnasium.Env[Any, Any]):
@@ -146,7 +143,7 @@ class SingleSeatEnv(gymnasium.Env[Any, Any]):
             If the environment is closed, or the partner fails.
         """
         super().reset(seed=seed)
-        episode = int(self.np_random.integers(MOST)) if seed is None else seed
+        episode = int(self.np_random.integers(SEEDS)) if seed is None else seed
         seeds = seeds_of(self._scenario.model_copy(update={"seed": episode}))
         # Spawned after those of a run, so that they stay as they are.
         drawing = np.random.default_rng(np.random.SeedSequence(episode).spawn(4)[3])

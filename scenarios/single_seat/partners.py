@@ -19,8 +19,8 @@ from ..people.person import with_person
 from ..people.population import Population
 from ..running.build import build_agents
 
-MOST = 2**32
-"""Above the seed of a person."""
+SEEDS = 2**32
+"""Seeds of episodes and of people are drawn below it."""
 
 
 class Partners:
@@ -81,7 +81,7 @@ class Partners:
         """
         if self._population is None:
             return self._agents[int(rng.integers(len(self._agents)))]
-        seed, plant = int(rng.integers(MOST)), self._scenario.plant.name
+        seed, plant = int(rng.integers(SEEDS)), self._scenario.plant.name
         (person,) = self._population.draw(1, seed, plant)
         section = with_person(self._scenario, person).human
         return section.name, self._built(section)

@@ -35,7 +35,10 @@ def shown(value: Any) -> str:
 
 def said(value: Any) -> str:
     """Return in a few words what a part answered: of an array its shape, else as `shown`."""
-    return f"an array of shape {value.shape}" if isinstance(value, np.ndarray) else shown(value)
+    if not isinstance(value, np.ndarray):
+        return shown(value)
+    of = "" if value.dtype.kind in "fiub" else f" of {value.dtype}"
+    return f"an array{of} of shape {value.shape}"
 
 
 def is_number(value: Any) -> bool:
@@ -218,6 +221,12 @@ def _or_default(default: Any, within: Range) -> str:
 def is_array(value: Any) -> TypeGuard[np.ndarray]:
     """Return whether a value is an array of numbers, not an empty one."""
     return isinstance(value, np.ndarray) and value.dtype.kind in "iuf" and value.size > 0
+
+
+def are_numbers(value: Any, shape: tuple[int, ...] = ()) -> bool:
+    """Return whether a value is real numbers of a shape, of Python or NumPy; () is one alone."""
+    right = isinstance(value, float | int | np.generic | np.ndarray)
+    return right and np.shape(value) == shape and np.asarray(value).dtype.kind in "fiub"
 
 
 def between(within: Range) -> str:

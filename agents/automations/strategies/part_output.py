@@ -12,7 +12,7 @@ from cowalk.estimation.observers.protocol import Estimate, Observer
 from cowalk.estimation.smoothers.protocol import Smoother
 from cowalk.sim.basics.errors import PartError
 from cowalk.sim.basics.motion import Array
-from cowalk.sim.basics.validators import said
+from cowalk.sim.basics.validators import are_numbers, said
 
 Shape = tuple[int, ...]
 
@@ -25,15 +25,15 @@ def require_block(front_end: FrontEnd, block: Any, shape: Shape) -> None:
     PartError
         With the front end to blame.
     """
-    if not isinstance(block, np.ndarray) or block.shape != shape:
-        what = f"the block of samples, cleaned, an array of shape {shape}"
+    if not isinstance(block, np.ndarray) or not are_numbers(block, shape):
+        what = f"the block of samples, cleaned, an array of real numbers of shape {shape}"
         raise PartError(front_end, f"update() gave {said(block)}; it must be {what}")
     if not np.isfinite(block).all():
         raise PartError(front_end, "update() gave samples that are not finite")
 
 
 def require_estimate(observer: Observer, estimate: Any, shape: Shape) -> None:
-    """Refuse what is no estimate with finite means and the numbers that the observer declares.
+    """Refuse what is no estimate: finite means, a stubbornness in [0, 1], the declared numbers.
 
     Raises
     ------
@@ -45,11 +45,16 @@ def require_estimate(observer: Observer, estimate: Any, shape: Shape) -> None:
     for name, finite in _PAIRS.items():
         value = getattr(estimate, name)
         allowed = (shape,) if finite else (shape, shape[-1:])
-        if not isinstance(value, np.ndarray) or value.shape not in allowed:
+        right = any(are_numbers(value, each) for each in allowed)
+        if not isinstance(value, np.ndarray) or not right:
             given = f"update() gave {name} = {said(value)}"
-            raise PartError(observer, f"{given}; it must be an array of shape {shape}")
+            what = f"an array of real numbers of shape {shape}"
+            raise PartError(observer, f"{given}; it must be {what}")
         if finite and not np.isfinite(value).all():
             raise PartError(observer, f"update() gave {name} = {value}; it must be finite")
+    share = estimate.stubbornness
+    if (share < -_ROUNDING).any() or (share > 1.0 + _ROUNDING).any():
+        raise PartError(observer, f"update() gave stubbornness = {share}; it must lie in [0, 1]")
     if not isinstance(estimate.extras, Mapping):
         given = f"update() gave extras {estimate.extras!r}"
         raise PartError(observer, f"{given}; they must be numbers by name")
@@ -59,7 +64,7 @@ def require_estimate(observer: Observer, estimate: Any, shape: Shape) -> None:
         given = f"update() gave extras {sorted(undeclared)}"
         raise PartError(observer, f"{given} that its columns do not declare")
     for name, value in estimate.extras.items():
-        if not _numbers(value, shape[:-1]):
+        if not are_numbers(value, shape[:-1]):
             given = f"update() gave extras with {name} = {said(value)}"
             raise PartError(observer, f"{given}; it must be a number")
 
@@ -74,7 +79,7 @@ def smoothed(smoother: Smoother, value: Array) -> Array:
     """
     given = value.copy()
     result = smoother.update(given)
-    if not _numbers(result, value.shape):
+    if not are_numbers(result, value.shape):
         what = f"an array of shape {value.shape}" if value.shape else "a number"
         raise PartError(smoother, f"update() gave {said(result)}; it must be {what}")
     if not np.isfinite(result).all():
@@ -82,6 +87,8 @@ def smoothed(smoother: Smoother, value: Array) -> Array:
     return result
 
 
+_ROUNDING = 1e-9
+"""As far as rounding may lead out of [0, 1]."""
 _PAIRS = {
     "stubbornness": True,
     "wish": True,
@@ -89,8 +96,3 @@ _PAIRS = {
     "wish_deviation": False,
 }
 """Arrays of an estimate, and whether they must be finite: a deviation may be left open."""
-
-
-def _numbers(value: Any, shape: Shape) -> bool:
-    right = isinstance(value, float | int | np.number | np.ndarray)
-    return right and np.shape(value) == shape

@@ -78,6 +78,8 @@ class FrontEnd:
             return wrench[:, :2]
         if self.kind == "nan":
             return wrench * np.nan
+        if self.kind == "complex":
+            return wrench * 1j
         raise ZeroDivisionError("no samples")
 
 
@@ -90,7 +92,8 @@ class Smoother(MovingAverage):
         found = super().update(value)
         if self.kind == "raises":
             raise KeyError("window")
-        return {"none": None, "nan": found * np.nan, "shape": np.zeros(3)}[self.kind]
+        answers = {"none": None, "nan": found * np.nan, "shape": np.zeros(3), "complex": found + 1j}
+        return answers[self.kind]
 
 
 class Observer(PaperObserver):
@@ -115,6 +118,10 @@ class Observer(PaperObserver):
             return Estimate(found.stubbornness, found.wish, extras={"temper": "bad"})
         if self.kind == "three":
             return Estimate(np.zeros(3), found.wish)
+        if self.kind == "beyond":
+            return Estimate(np.array([0.5, 5.0]), found.wish)
+        if self.kind == "complex":
+            return Estimate(found.stubbornness, found.wish + 0.1j)
         if self.kind == "float":
             return Estimate(0.5, found.wish)
         if self.kind == "writes":
@@ -225,7 +232,27 @@ OBSERVER = "automation.observer=faulty:Observer"
         (
             [OBSERVER, "automation.observer.parameters.kind=float"],
             "observer 'faulty:Observer'",
-            "gave stubbornness = 0.5; it must be an array of shape (2,)",
+            "gave stubbornness = 0.5; it must be an array of real numbers of shape (2,)",
+        ),
+        (
+            [OBSERVER, "automation.observer.parameters.kind=beyond"],
+            "observer 'faulty:Observer'",
+            "gave stubbornness = [0.5 5. ]; it must lie in [0, 1]",
+        ),
+        (
+            [OBSERVER, "automation.observer.parameters.kind=complex"],
+            "observer 'faulty:Observer'",
+            "gave wish = an array of complex128 of shape (2,); it must be an array of real",
+        ),
+        (
+            [FRONT_END, "automation.front_end.parameters.kind=complex"],
+            "front end 'faulty:FrontEnd'",
+            "gave an array of complex128 of shape (12, 6); it must be the block",
+        ),
+        (
+            ["automation.smoother=faulty:Smoother", "automation.smoother.parameters.kind=complex"],
+            "smoother 'faulty:Smoother'",
+            "it must be a number",
         ),
         (
             [OBSERVER, "automation.observer.parameters.kind=writes"],
@@ -271,6 +298,7 @@ def test_a_part_that_fails_is_blamed_by_its_own_name(changes, who, what, tmp_pat
     assert result.error is not None
     assert result.error.startswith(who), result.error
     assert what in result.error
+    assert "\n" not in result.error
 
 
 def test_what_automation_and_observer_add_becomes_columns(tmp_path, monkeypatch):
