@@ -33,8 +33,9 @@ class GaitRipple(Imperfection):
 
         dF = walking stiffness/2 [fore_aft sin(phi), lateral sin(phi/2)], phi = 2 pi f t + phase.
 
-    The defaults are the medians of 110 measured walking trials (unpublished); their 5 and 95 %
-    are given below. They make +- 3 N, as much as the paper's pushes. It ceases with the walk:
+    The defaults are those of the median person at 0.8 m/s, the pace of the scenarios that ship,
+    from the sources in `cowalk.sim.body.gait`. They make +- 3 N sideways and 2 N fore and aft, as
+    much as the paper's pushes. It ceases with the walk:
     ``walking = min(|v|/walking_speed, 1)``. For the unicycle plant; in PyBullet the body
     makes it.
 
@@ -42,11 +43,11 @@ class GaitRipple(Imperfection):
     ----------
     human : Human
     step_frequency : float
-        Hz; 1.63, 1.82, 2.08.
+        Hz.
     lateral_sway : float
-        Sideways, peak to peak, m; 0.027, 0.060, 0.115.
+        Sideways, peak to peak, m.
     fore_aft_sway : float
-        Fore and aft, peak to peak, m; 0.036, 0.066, 0.159.
+        Fore and aft, peak to peak, m.
     arm_stiffness : float
         N/m, about 100. Inferred.
     walking_speed : float
@@ -60,9 +61,9 @@ class GaitRipple(Imperfection):
 
     demonstration: ClassVar[tuple[float, float]] = (5.0, 10.0)
 
-    step_frequency: float = 1.82
-    lateral_sway: float = 0.060
-    fore_aft_sway: float = 0.066
+    step_frequency: float = 1.37
+    lateral_sway: float = 0.067
+    fore_aft_sway: float = 0.042
     arm_stiffness: float = 100.0
     walking_speed: float = 0.4
 

@@ -172,7 +172,7 @@ def _ripple(
         return []
     usual: float = Scenario.model_fields["pace"].default
     pace = (human.get("intention") or {}).get("pace") or usual
-    fore_aft, lateral = how.sway
+    fore_aft, lateral = how.sway_at(pace)
     parameters = {
         "step_frequency": step_frequency(pace, how.step_frequency),
         "fore_aft_sway": fore_aft,

@@ -223,7 +223,8 @@ class Walker:
         lean = human[2] - base_yaw
         legs_x = legs_y = 0.0
         if self.gait.enabled:
-            sway_x, sway_y, sway_vx, sway_vy, ax, ay = self.gait.update(own_vx)
+            # The pace is that of the place beside the base: the trunk's own has the sway in it.
+            sway_x, sway_y, sway_vx, sway_vy, ax, ay = self.gait.update(own_vx - slip_x)
             target_x += sway_x
             target_y += sway_y
             slip_x -= sway_vx

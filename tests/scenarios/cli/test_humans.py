@@ -88,7 +88,7 @@ def test_every_imperfection_is_seen_alone(cowalk, tmp_path, name):
         (("show", "steady", "--set", "plant=bullet"), "only keys of human can be set here"),
         (("show", "steady", "--set", "human.parameters.level=[2,0]"), "level = "),
         (("sample", "uncertain", "--plant", "bulet"), "did you mean 'bullet'?"),
-        (("table", "--write", "nowhere.md"), "--write nowhere.md: cannot be read"),
+        (("table", "--plant", "bullet", "--write", "no.md"), "--write no.md: cannot be read"),
         (("sample", "nobody"), "unknown population 'nobody'"),
     ],
 )

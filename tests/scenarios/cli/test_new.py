@@ -9,6 +9,7 @@ from cowalk.scenarios.cli.new import SCENARIO, camel_case, startable
 
 PARTS = [kind for kind in startable() if kind != SCENARIO]
 QUICK = ("--plant", "unicycle", "--no-figure")
+DROPPED = "cowalk: plant is now 'unicycle': dropped what was said of 'bullet'"
 
 
 @pytest.fixture
@@ -39,12 +40,14 @@ def test_a_start_passes_its_check_and_the_commands_that_are_named_work(kind, cow
     assert cowalk(*check) == (0, f"{check[1]}: no fault ({word})\n", "")
     code, out, error = cowalk(*run, *QUICK, "--set", "expect={}", "--json")
     assert code == 0
-    assert not error or error.startswith("cowalk: human is now 'started_human:StartedHuman': drop")
+    swaps = "cowalk: human is now 'started_human:StartedHuman': drop", DROPPED
+    assert all(line.startswith(swaps) for line in error.splitlines())
     assert f'"{word.replace(" ", "_")}": "{check[1]}"' in out
     quick = ("--plant", "unicycle", "--set", "duration=4", "-n", "2")
     code, out, error = cowalk(*compare, *quick)
     assert code == 0
-    assert all(line.startswith("cowalk: walking: ") for line in error.splitlines())
+    told = "cowalk: walking: ", f"{DROPPED}: gait, walker"
+    assert all(line.startswith(told) for line in error.splitlines())
     assert check[1] in out
 
 

@@ -11,6 +11,7 @@ SLOW = {
     *("pandas", "IPython", "pytest"),
 }
 PLAIN = ("run", "puddle", "--no-figure", "--set", "expect={}", "--set", "duration=3")
+NO_LOW_PASS = ("--set", "sensor.low_pass=0")
 LOW_PASS = ("--set", "sensor.low_pass=20")
 
 
@@ -26,7 +27,7 @@ def slow_imports(folder, *arguments):
 
 
 def test_a_plain_run_imports_nothing_slow(tmp_path):
-    assert slow_imports(tmp_path, *PLAIN, "--set", "sensor.low_pass=0") == set()
+    assert slow_imports(tmp_path, *PLAIN, *NO_LOW_PASS) == set()
 
 
 @pytest.mark.parametrize(
@@ -34,12 +35,12 @@ def test_a_plain_run_imports_nothing_slow(tmp_path):
     [
         ((*PLAIN, *LOW_PASS), {"scipy.signal"}, {"rtamt", "matplotlib", "PIL"}),
         (
-            ("run", "puddle", "--no-figure"),
+            ("run", "puddle", "--no-figure", *NO_LOW_PASS),
             {"rtamt", "antlr4"},
             SLOW - {"rtamt", "antlr4"},
         ),
         (
-            [each for each in PLAIN if each != "--no-figure"],
+            [*(each for each in PLAIN if each != "--no-figure"), *NO_LOW_PASS],
             {"matplotlib", "PIL"},
             {"rtamt", "scipy.signal", "scipy.spatial"},
         ),

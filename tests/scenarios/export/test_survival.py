@@ -278,7 +278,7 @@ def test_a_file_that_may_not_grow_is_one_line_and_harms_nothing(tmp_path, short)
         resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
 
     ended = cowalk_process(
-        *("run", "puddle", "--plant", "unicycle", "--out", "kept", "--no-figure"),
+        *("run", "puddle", "--set", "plant:=unicycle", "--out", "kept", "--no-figure"),
         cwd=tmp_path,
         preexec_fn=limited,
         stdout=subprocess.PIPE,
@@ -309,7 +309,7 @@ def test_a_reader_that_has_gone_is_one_line_and_the_run_is_kept(tmp_path):
     reading, writing = os.pipe()
     os.close(reading)
     ended = cowalk_process(
-        *("run", "puddle", "--plant", "unicycle", "--no-figure", "--out", "kept"),
+        *("run", "puddle", "--set", "plant:=unicycle", "--no-figure", "--out", "kept"),
         cwd=tmp_path,
         stdout=writing,
     )

@@ -7,6 +7,7 @@ from cowalk.scenarios import load, run
 PUDDLE = "{{kind: puddle, x: {}, y: -0.75, radius: 0.35, seen_by: [human]}}"
 TWO_PUDDLES = (
     "plant=unicycle",
+    "sensor=none",
     "duration=45.0",
     "human.parameters={}",
     "world.path.points=[[0, 0], [36, 0]]",

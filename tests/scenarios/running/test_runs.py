@@ -68,6 +68,9 @@ def test_every_smoother_runs_in_the_loop(smoother):
     assert np.ptp(trace["smoothed_stubbornness_omega"]) > 0.05
 
 
+GLIDING = "plant.parameters.gait.enabled=false"
+
+
 def test_the_walked_path_clears_the_puddle(puddle):
     assert puddle.summary["end"] == "goal"
     assert puddle.trace["clearance"].min() > 0.05
@@ -75,18 +78,24 @@ def test_the_walked_path_clears_the_puddle(puddle):
 
 
 def test_the_force_is_the_constraints_and_not_the_intent(puddle):
-    noise = 0.05 / np.sqrt(12)  # of the sensor, averaged over a control step
-    for trace in (puddle.trace, trace_of("puddle", "sensor.noise_density=0.0")):
+    """The body between hand and handle adds dynamics, and far more of them while it walks."""
+    apart = []
+    for trace in (trace_of("puddle", "sensor=none", GLIDING), puddle.trace):
         walking = trace["t"] > 3.0
         intent = trace["fy_intent"][walking]
-        difference = trace["fy"][walking] - intent
-        # The body between hand and handle adds dynamics: more than noise, less than the intent.
-        assert difference.std() > 3.0 * noise
-        assert np.corrcoef(trace["fy"][walking], intent)[0, 1] > 0.95
+        apart.append((trace["fy"][walking] - intent).std())
+        assert np.corrcoef(trace["fy"][walking], intent)[0, 1] > (0.85 if apart[1:] else 0.95)
+    gliding, walked = apart
+    assert gliding > 0.04
+    assert walked > 5.0 * gliding
 
 
-def test_an_automation_that_never_yields_changes_the_humans_force(puddle):
-    stubborn = run(load("puddle", ["automation=never-yields"]))
+def test_an_automation_that_never_yields_changes_the_humans_force():
+    # Without gait, through which an automation that yields shakes whom it walks with.
+    puddle, stubborn = (
+        run(load("puddle", ["sensor=none", GLIDING, f"automation={name}"]))
+        for name in ("stubbornness", "never-yields")
+    )
     assert stubborn.trace["clearance"].min() < 0.0
     assert not stubborn.passed
     mean = [np.abs(each.trace["fy_intent"]).mean() for each in (puddle, stubborn)]
@@ -126,7 +135,8 @@ def test_the_trace_holds_the_force_that_acted(tmp_path, monkeypatch):
 
 
 def test_the_seed_matters_and_the_noise_is_the_sensors():
-    quiet = [trace_of("puddle", f"seed={seed}", "sensor.noise_density=0.0") for seed in (1, 2)]
+    """Without a sensor's faults and a gait, whose phase is drawn, nothing else is random."""
+    quiet = [trace_of("puddle", f"seed={seed}", "sensor=none", GLIDING) for seed in (1, 2)]
     assert quiet[0].values.tobytes() == quiet[1].values.tobytes()
     one, two = trace_of("puddle", "seed=1"), trace_of("puddle", "seed=2")
     same = trace_of("puddle", "seed=2")
