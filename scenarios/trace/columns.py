@@ -61,6 +61,8 @@ UNITS = {
     "interaction_torque_y": "N m",
     "interaction_torque_z": "N m",
     "work": "J",
+    "drive_force": "N",
+    "drive_torque": "N m",
     "wheel_left": "rad/s",
     "wheel_right": "rad/s",
     "footing_held": "1",
@@ -79,12 +81,13 @@ Row k describes control step k: the state at its end, the decisions in force dur
 what was measured averaged over it. `fx` and `fy` are the measured force in base axes,
 `sensor_...` the whole reading in the sensor's axes, about its origin, `interaction_...` the
 wrench itself before the sensor, base axes, about the handle. `work` is what the human did to the
-base at the handle in the step, `wheel_...` what the command asks of the driven wheels,
-`footing_held` is 1 until the human loses their footing, and `negotiated` is 1 in a step that
-began with a negotiation. `reward_SEAT_TERM` is what each term added to a seat's reward.
-`true_...` is the human's truth, NaN where nobody knows it, `identifiable_...` 1 where their
-stubbornness could be read from force. Columns that an automation or its observer adds follow
-these.
+base at the handle in the step, `drive_force` what the ground did along the base and
+`drive_torque` about the point of its axle beside the handle, both means over the step.
+`wheel_...` is what the command asks of the driven wheels, `footing_held` 1 until the human
+loses their footing, `negotiated` 1 in a step that began with a negotiation, `reward_SEAT_TERM`
+what each term added to a seat's reward. `true_...` is the human's truth, NaN where nobody knows
+it, `identifiable_...` 1 where their stubbornness could be read from force. Columns that an
+automation or its observer adds follow these.
 """
 
 

@@ -33,6 +33,7 @@ def of_state(env: CowalkEnv) -> dict[str, float]:
                 *state.human_pose,
                 *(state.wrench_on_base.sum(axis=0) / samples).tolist(),
                 state.work,
+                *state.drive,
                 left,
                 right,
                 float(state.footing_held),
@@ -47,7 +48,7 @@ _STATE = (
     *(name for name in UNITS if name.startswith("sensor_")),
     *("fx_intent", "fy_intent", "human_x", "human_y", "human_theta"),
     *(name for name in UNITS if name.startswith(("interaction_force", "interaction_torque"))),
-    *("work", "wheel_left", "wheel_right", "footing_held"),
+    *("work", "drive_force", "drive_torque", "wheel_left", "wheel_right", "footing_held"),
 )
 
 

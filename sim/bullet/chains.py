@@ -5,6 +5,7 @@ A state is (x, y, yaw, vx, vy, rate) in world axes: m, rad, m/s, rad/s.
 
 from __future__ import annotations
 
+import math
 from typing import Any, Protocol
 
 from ..basics.frames import Vector
@@ -153,6 +154,13 @@ class Base(Protocol):
         """Return the state."""
         ...
 
+    def mean_drive(self) -> tuple[float, float]:
+        """Return force along the base and torque of the drive, N and N m, since last asked.
+
+        About the origin; NaN where not known, or where nothing was driven since.
+        """
+        ...
+
     def reset(self, speed: float = 0.0, rate: float = 0.0) -> tuple[float, float]:
         """Forget the command, at a twist (m/s, rad/s), and return it as the limits leave it."""
         ...
@@ -178,11 +186,16 @@ class SlipBase(Slab):
         self.reset = self._drive.command.reset
         self.save = self._drive.command.save
         self.restore = self._drive.command.restore
+        self._force = self._torque = 0.0
+        self._driven = 0
 
     def drive(self, state: State, cos: float, sin: float, extra: Vector) -> None:
         """See `Base.drive`."""
         _, _, _, vx, vy, rate = state
         along, across, turn = self._wrench(cos * vx + sin * vy, cos * vy - sin * vx, rate)
+        self._force += along
+        self._torque += turn
+        self._driven += 1
         fx, fy, torque = extra
         zeros = self.zeros
         # As `apply`, written out: this is the innermost loop.
@@ -204,3 +217,11 @@ class SlipBase(Slab):
             self.body, self.joints, self.client
         )
         return x, y, yaw, vx, vy, rate
+
+    def mean_drive(self) -> tuple[float, float]:
+        """See `Base.mean_drive`."""
+        steps = self._driven or math.nan
+        mean = self._force / steps, self._torque / steps
+        self._force = self._torque = 0.0
+        self._driven = 0
+        return mean

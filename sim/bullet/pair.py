@@ -182,6 +182,11 @@ class Pair:
         bodies = [("base", self.base_state[3:]), ("human", self.human_state[n : n + 3])]
         return [*bodies, ("load", self.load_state[3:])] if self.load else bodies
 
+    def mean_drive(self) -> tuple[float, float]:
+        """Return what the drive did since last asked (see `PlantState.drive`)."""
+        force, torque = self.base.mean_drive()
+        return force, torque + self.handle[1] * force
+
     def close(self) -> None:
         """Free the world. May be called twice."""
         self._free()

@@ -52,4 +52,5 @@ def report(
         time=time,
         load_pose=(load[0], load[1], load[2]) if load else None,
         work=work,
+        drive=pair.mean_drive(),
     )

@@ -198,6 +198,10 @@ class WheelBase:
         dx, dy = cos * cx - sin * cy, sin * cx + cos * cy
         return x - dx, y - dy, yaw, vx + rate * dy, vy - rate * dx, rate
 
+    def mean_drive(self) -> tuple[float, float]:
+        """See `Base.mean_drive`: what contacts pass on is not known."""
+        return math.nan, math.nan
+
     def save(self) -> Any:
         """See `Base.save`."""
         # Contacts carry what the solver learned in the last step; only the engine can save them.

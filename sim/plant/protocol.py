@@ -51,6 +51,10 @@ class PlantState:
     work : float
         Of the human on the base at the handle during the step, J: the integral of F v + M omega
         over the physics steps. NaN for a plant that does not know it.
+    drive : (force, torque)
+        Of the ground on the base along it, N, and about the point of its axle beside the
+        handle, N m, base axes: means over the step. There a push along the base has no lever,
+        so that the torque tells of turning alone. NaN where it is not known.
     """
 
     pose: tuple[float, float, float]
@@ -64,6 +68,7 @@ class PlantState:
     time: float = 0.0
     load_pose: tuple[float, float, float] | None = None
     work: float = math.nan
+    drive: tuple[float, float] = (math.nan, math.nan)
 
     @property
     def poses(self) -> tuple[tuple[float, float, float], ...]:
