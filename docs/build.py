@@ -91,6 +91,7 @@ def main() -> None:
         output("humans", "show", "escalating", "--out", str(images / "escalating.png"))
         (images / "paper.png").write_bytes(Path(folder, "panels.png").read_bytes())
     output("humans", "table", "--write", str(DOCS / "humans.md"))
+    output("mutants", "metrics", "--write", str(DOCS / "metrics.md"))
     quote(DOCS / "model.md", "paper", fenced(output("paper")))
     for file, name in (("scenarios.md", "puddle"), ("world.md", "doorway")):
         quote(DOCS / file, name, fenced(shipped(name), "yaml"))

@@ -185,11 +185,12 @@ def table(
     as_json: Json = False,
 ) -> int:
     """Compare every human with every automation, with 95 % intervals."""
+    from ..export.marked import marked_document
     from ..studies.human_table import (
+        MARK,
         NOTE,
         compare_humans,
         header,
-        marked_document,
         row,
         write_table,
     )
@@ -197,7 +198,7 @@ def table(
     loaded = load_changed(scenario, changes)
     if write is not None:
         with option("--write"):
-            marked_document(write)  # before the minutes that the runs take
+            marked_document(write, MARK)  # before the minutes that the runs take
     with progress_bar("comparing") as progress:
         cells = compare_humans(loaded, seeds, progress=progress)
     if write is not None:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..running.signals import Hold
-from . import checking, humans, listing, new, recover, studies
+from . import checking, humans, listing, mutants, new, recover, studies
 from .changes import Changes, changing, option, read_changed
 from .ending import complain_of_fault, exit_code, write_report
 from .output import (
@@ -22,6 +22,7 @@ from .output import (
     FAULT,
     PASSED,
     Json,
+    by_dimension,
     complain,
     emit_json,
     emit_table,
@@ -67,6 +68,7 @@ def command_line() -> typer.Typer:
     listing.register(app)
     humans.register(app)
     studies.register(app)
+    mutants.register(app)
     new.register(app)
     recover.register(app)
     return app
@@ -208,9 +210,10 @@ def _report(result: RunResult, files: dict[str, str]) -> None:
     summary = result.summary
     metrics = summary["metrics"]
     if metrics:
-        rows = [(name, entry["value"], entry["unit"]) for name, entry in metrics.items()]
         emit_table(
-            f"{result.scenario.name}, seed {summary['seed']}", ("metric", "value", "unit"), rows
+            f"{result.scenario.name}, seed {summary['seed']}",
+            ("metric", "value", "v, forward", "omega, sideways", "unit"),
+            by_dimension(metrics),
         )
     if result.verdicts:
         emit_table(

@@ -7,7 +7,7 @@ import math
 import os
 import sys
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from typing import Annotated, Any, TextIO
 
@@ -114,6 +114,25 @@ def emit_table(title: str, header: Sequence[str], rows: Iterable[Sequence[Any]])
     console = Console(markup=False, width=None if sys.stdout.isatty() else 160)
     console.print(table)
     console.print()
+
+
+def by_dimension(metrics: Mapping[str, Mapping[str, Any]]) -> list[tuple[Any, ...]]:
+    """Return the rows of a table of metrics, one for all dimensions of each.
+
+    Name, value of what has no dimension or of all together, of v or forward, of omega or
+    sideways, unit.
+    """
+    places = {"v": 2, "forward": 2, "omega": 3, "sideways": 3}
+    rows: dict[str, list[Any]] = {}
+    for name, entry in metrics.items():
+        family, _, dimension = name.rpartition(", ")
+        if dimension not in places:
+            family = name
+        row = rows.setdefault(family, [family, "", "", "", entry["unit"]])
+        row[places.get(dimension, 1)] = entry["value"]
+        if row[4] != entry["unit"]:
+            row[4] = f"{row[4]}, {entry['unit']}"
+    return [tuple(row) for row in rows.values()]
 
 
 def _text(cell: Any) -> str:

@@ -19,7 +19,6 @@ from ..export.run_folder import picture
 from ..files.assembling import named_parts
 from ..files.schema import Scenario
 from ..result import RunResult
-from ..trace.metrics import metrics
 from ..trace.trace import FORMAT, Trace
 
 _VERSIONED = ("numpy", "scipy", "pybullet", "pettingzoo", "filterpy")
@@ -63,6 +62,7 @@ def outcome(
     end: str,
     error: str | None,
     wall_time: float,
+    measured: dict[str, Any],
     attempt: Attempt,
 ) -> RunResult:
     """Score and judge what was recorded.
@@ -77,6 +77,8 @@ def outcome(
         Why, if before its time.
     wall_time : float
         How long it took, s; NaN where nobody knows.
+    measured : dict
+        Its metrics, `cowalk.scenarios.running.measured.measured`.
     attempt : Attempt
         Notes what fails.
     """
@@ -84,10 +86,8 @@ def outcome(
     columns = trace.columns()
     rows = len(trace)
     verdicts: list[Verdict] = []
-    scores: dict[str, Any] = {}
     if rows:
         verdicts = attempt(lambda: judge(scenario.expect, columns, period), verdicts)
-        scores = attempt(lambda: metrics(columns, period, scenario.world.path), scores)
     if error is None and attempt.error is not None:
         end, error = "aborted", f"{scenario.name}: {attempt.error}"
     simulated = rows * period
@@ -103,7 +103,7 @@ def outcome(
         "simulated_time_s": simulated,
         "wall_time_s": wall_time,
         "real_time_factor": simulated / wall_time if wall_time != 0.0 else math.inf,
-        "metrics": scores,
+        "metrics": measured,
         "expectations": [asdict(verdict) for verdict in verdicts],
         "versions": {"python": platform.python_version(), **versions()},
     }

@@ -6,6 +6,7 @@ import math
 import shutil
 from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 from cowalk.sim.basics.errors import InputError
 
@@ -15,6 +16,7 @@ from ..files.validation import validate
 from ..result import RunResult
 from ..trace.stream import read_stream
 from ..yaml_text.document import parse
+from .measured import measured
 from .outcome import Attempt, outcome
 
 
@@ -58,7 +60,9 @@ def recover_run(folder: str | Path) -> RunResult | None:
             f"{scenario.name}: the process was killed; recovered to t = {len(trace) * period:g} s"
         )
         attempt = Attempt()
-        result = outcome(scenario, trace, "recovered", error, math.nan, attempt)
+        unmeasured: dict[str, Any] = {}
+        found = attempt(lambda: measured(scenario, trace), unmeasured)
+        result = outcome(scenario, trace, "recovered", error, math.nan, found, attempt)
         result.fault = attempt.fault
         place.keep(result)
     with suppress(OSError):

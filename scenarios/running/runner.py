@@ -22,6 +22,7 @@ from ..watch.watcher import Watcher, Watchers
 from .agent_output import require_belief, require_force, require_truth, require_twist
 from .blame import Blame, Culprit
 from .build import build_agents, make_env, seeds_of, situation_of
+from .measured import measured
 from .outcome import Attempt, outcome
 from .outlines import collision, outlines
 from .signals import SIGNALS, Hold, interrupts
@@ -76,11 +77,14 @@ def run(
             end, error = episode.end(limit, hold)
             attempt = Attempt(episode.fault)
             touched = attempt(lambda: collision(env) if end == "collision" else None, None)
+            trace = episode.recorder.trace
+            unmeasured: dict[str, Any] = {}
+            found = attempt(lambda: measured(scenario, trace, env), unmeasured)
         finally:
             watching.close()
             env.close()
         wall_time = time.perf_counter() - started
-        result = outcome(scenario, episode.recorder.trace, end, error, wall_time, attempt)
+        result = outcome(scenario, trace, end, error, wall_time, found, attempt)
         counted = {"sensor": episode.count.summary(), "reward": episode.earned.summary()}
         person = json_ready(episode.recorder.person)
         result.summary |= {"contact": touched, "person": person, **counted}

@@ -24,27 +24,30 @@ class AgentScore:
     Attributes
     ----------
     name : str
-    mean_force : float
-        Measured, N.
     effort : float
-        Integral of the force over time, N s.
-    smallest_clearance : float
-        m.
-    lowest_target_utility : float
-        What the automation demands at least, 1; NaN where it has no such.
-    time_to_agreement : float
-        Over the runs that reached it, s.
-    agreed, reached_goal, runs : int
-        Number of runs that reached agreement, that ended at the goal, and of all.
+        Integral of the intended force over time, N s.
+    effort_a_metre : float
+        The same by the metre of progress, N s/m: infinite where there was none in some run.
+    clearance : float
+        The smallest, m.
+    time_apart : float
+        Time for which human and base disagreed in omega, s.
+    concession : float
+        Executed: share of the disagreement in omega that the base gave way by; NaN where there
+        was none.
+    resolved_in_time : float
+        Share of disagreements in omega that the base ended in time; NaN where there was none.
+    reached_goal, runs : int
+        Number of runs that ended at the goal, and of all.
     """
 
     name: str
-    mean_force: float
     effort: float
-    smallest_clearance: float
-    lowest_target_utility: float
-    time_to_agreement: float
-    agreed: int
+    effort_a_metre: float
+    clearance: float
+    time_apart: float
+    concession: float
+    resolved_in_time: float
     reached_goal: int
     runs: int
 
@@ -64,19 +67,23 @@ def compare_agents(
 
 
 def _score(name: str, numbers: dict[str, Array]) -> AgentScore:
-    agreement = numbers["time to agreement"]
-    known = agreement[np.isfinite(agreement)]
+    a_metre = numbers["intended effort a metre"]
     return AgentScore(
         name=name,
-        mean_force=float(numbers["mean force"].mean()),
-        effort=float(numbers["effort"].mean()),
-        smallest_clearance=float(numbers["smallest clearance"].mean()),
-        lowest_target_utility=float(numbers["lowest target utility"].mean()),
-        time_to_agreement=float(known.mean()) if known.size else math.nan,
-        agreed=known.size,
+        effort=float(numbers["intended effort"].mean()),
+        effort_a_metre=float(a_metre.mean()) if np.isfinite(a_metre).all() else math.inf,
+        clearance=float(numbers["smallest clearance"].mean()),
+        time_apart=_known_mean(numbers["time apart, omega"]),
+        concession=_known_mean(numbers["executed concession, omega"]),
+        resolved_in_time=_known_mean(numbers["resolved in time, omega"]),
         reached_goal=int(numbers["goal"].sum()),
-        runs=len(agreement),
+        runs=len(a_metre),
     )
+
+
+def _known_mean(values: Array) -> float:
+    known = values[np.isfinite(values)]
+    return float(known.mean()) if known.size else math.nan
 
 
 def _fared(result: RunResult) -> dict[str, float]:

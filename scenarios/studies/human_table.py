@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import io
 import math
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,6 +15,7 @@ from cowalk.agents.registry import HUMANS
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.motion import Array
 
+from ..export.marked import markdown_table, write_marked
 from ..files.schema import Component, Scenario, with_named
 from ..running.runner import Progress, run
 from .places import elsewhere
@@ -29,13 +28,19 @@ BODY = ("reaction-delay", "signal-dependent-noise")
 
 Gait ripple is not among them: at +- 3 N it is as large as what the models differ by.
 """
-METRICS = {"mean force": "N", "effort": "N s", "effort a metre": "N s/m", "time to agreement": "s"}
-"""What is compared, and its unit; effort also by the metre walked, since runs differ in length."""
+METRICS = {
+    "intended effort": "N s",
+    "intended effort a metre": "N s/m",
+    "time apart, omega": "s",
+    "executed concession, omega": "1",
+}
+"""What is compared, and its unit; effort also by the metre of progress, since runs differ in
+length."""
 EARLY = ("collision", "grip lost", "lost footing")
 """Ends of a run that cut it short."""
 NOTE = (
-    "Time to agreement: over the runs that reached it. Runs that ended early are shorter, and so "
-    "is the time over which their effort adds up: compare that by the metre."
+    "Concession: over the runs in which the two wanted something else. Runs that ended early are "
+    "shorter, and so is the time over which their effort adds up: compare that by the metre."
 )
 """What a reader of the table must know."""
 CONFIDENCE = 0.95
@@ -50,7 +55,7 @@ class Interval:
     ----------
     mean, low, high : float
     runs : int
-        Runs in which the metric applies: those that reached agreement, for its time.
+        Runs in which the metric applies: those in which the wishes differed, for concession.
     """
 
     mean: float
@@ -163,8 +168,6 @@ def _measure(
     if result.error is not None:
         raise InputError(f"human {human!r}, automation {automation!r}, seed {seed}: {result.error}")
     values = numbers_of(result)
-    way = values["distance walked"]
-    values["effort a metre"] = values["effort"] / way if way > 0.0 else math.nan
     return tuple(values[name] for name in METRICS), result.summary["end"]
 
 
@@ -191,19 +194,18 @@ def estimate(values: Array) -> Interval:
 def header() -> tuple[str, ...]:
     """Return the column heads of the table."""
     heads = (f"{name}, {unit}" for name, unit in METRICS.items())
-    return ("human", "automation", *heads, "agreed", "ended early")
+    return ("human", "automation", *heads, "ended early")
 
 
 def row(cell: Cell) -> tuple[str, ...]:
-    """Return a cell as text: means with their intervals, how many runs agreed, ended early."""
+    """Return a cell as text: means with their intervals, and how many runs ended early."""
     texts = []
     for found in cell.metrics.values():
         interval = f" [{found.low:.2f}, {found.high:.2f}]" if math.isfinite(found.low) else ""
         texts.append(f"{found.mean:.2f}{interval}" if found.runs else "-")
-    runs, total = cell.metrics["time to agreement"].runs, cell.metrics["effort"].runs
     cut = [f"{count} by {end}" for end, count in cell.ended_early.items() if count]
     early = ", ".join(cut) or "none"
-    return (cell.human, cell.automation, *texts, f"{runs} of {total}", early)
+    return (cell.human, cell.automation, *texts, early)
 
 
 def write_table(file: Path, cells: Sequence[Cell], scenario: str, plant: str, seeds: int) -> None:
@@ -221,44 +223,9 @@ def write_table(file: Path, cells: Sequence[Cell], scenario: str, plant: str, se
     InputError
         See `marked_document`.
     """
-    from rich.box import MARKDOWN
-    from rich.console import Console
-    from rich.table import Table
-
-    table = Table(box=MARKDOWN, show_edge=True)
-    for name in header():
-        table.add_column(name, no_wrap=True)
-    for cell in cells:
-        table.add_row(*row(cell))
-    text = io.StringIO()
-    Console(file=text, width=400, markup=False, color_system=None).print(table)
-    lines = "\n".join(line for line in text.getvalue().splitlines() if line.strip())
+    table = markdown_table(header(), map(row, cells))
     caption = (
         f"Scenario `{scenario}` on the {plant} plant, {seeds} seeds; mean and 95 % bootstrap "
         f"interval. {NOTE}"
     )
-    document = marked_document(file)
-    filled = _PLACE.sub(lambda found: f"{found[1]}{caption}\n\n{lines}\n{found[2]}", document)
-    file.write_text(filled, encoding="utf-8")
-
-
-_PLACE = re.compile(rf"(<!-- {MARK} -->\n).*?(<!-- /{MARK} -->)", re.DOTALL)
-
-
-def marked_document(file: Path) -> str:
-    """Return the text of a document with a place for the table.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read or has no such marks.
-    """
-    try:
-        document = file.read_text(encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"{file}: cannot be read ({error.strerror})") from error
-    if not _PLACE.search(document):
-        raise InputError(
-            f"{file}: no place for the table; add the lines <!-- {MARK} --> and <!-- /{MARK} -->"
-        )
-    return document
+    write_marked(file, MARK, f"{caption}\n\n{table}")

@@ -113,7 +113,7 @@ def test_a_signal_that_is_ignored_from_the_start_stays_so(signalled):
 def test_in_python_an_interrupt_that_comes_late_waits_and_is_raised(monkeypatch):
     scenario = load("puddle", ["plant=unicycle", "duration=1", "expect={}"])
     monkeypatch.setattr(
-        "cowalk.scenarios.running.outcome.metrics",
+        "cowalk.scenarios.running.measured.metrics",
         lambda *given: signal.raise_signal(signal.SIGINT) or {},
     )
     with pytest.raises(KeyboardInterrupt):

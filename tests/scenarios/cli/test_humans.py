@@ -257,12 +257,12 @@ def test_the_table_compares_pairs_and_goes_into_a_document(tmp_path):
         (human, automation) for human in pairs["humans"] for automation in pairs["automations"]
     ]
     for cell in cells:
-        force = cell.metrics["mean force"]
-        assert force.low <= force.mean <= force.high
-        assert cell.metrics["effort"].mean == pytest.approx(6.0 * force.mean)
+        effort = cell.metrics["intended effort"]
+        assert effort.low <= effort.mean <= effort.high
         assert cell.ended_early == NONE
     steady = cells[0].metrics  # walks 6 s at the 0.8 m/s that both want
-    assert steady["effort a metre"].mean == pytest.approx(steady["effort"].mean / 4.8, rel=0.02)
+    a_metre = steady["intended effort a metre"].mean
+    assert a_metre == pytest.approx(steady["intended effort"].mean / 4.8, rel=0.02)
     assert cells == compare_humans(scenario, 3, jobs=1, **pairs)
     file = tmp_path / "humans.md"
     file.write_text("# Humans\n\n<!-- humans-table -->\nold\n<!-- /humans-table -->\n\nThe end.\n")
@@ -285,7 +285,8 @@ def test_the_table_says_which_runs_ended_early(cowalk):
     assert row(straight)[-1] == "none"
     assert row(weaving)[-1] == "2 by collision"
     # They carry on for less long, so that less effort adds up; it is not less by the metre.
-    assert weaving.metrics["effort"].mean < straight.metrics["effort"].mean
+    weaving, straight = weaving.metrics, straight.metrics
+    assert weaving["intended effort"].mean < straight["intended effort"].mean
 
 
 def test_the_table_is_printed_with_its_note_and_as_json(cowalk, scenario_file, monkeypatch):
@@ -296,7 +297,7 @@ def test_the_table_is_printed_with_its_note_and_as_json(cowalk, scenario_file, m
     assert code == 0
     (first, *_) = json.loads(out)["cells"]
     assert first["ended_early"] == NONE
-    assert set(first["metrics"]) >= {"effort", "effort a metre"}
+    assert set(first["metrics"]) >= {"intended effort", "intended effort a metre"}
     code, out, _ = cowalk("humans", "table", file, "-n", "2")
     assert "ended early" in out
     assert "compare that by the metre" in out

@@ -23,11 +23,12 @@ def test_every_automation_is_scored_the_scenarios_first(healthy):
     assert [score.name for score in scores] == ["stubbornness", "always-yields", "never-yields"]
     assert {score.name for score in scores} == set(AUTOMATIONS)
     by_name = {score.name: score for score in scores}
-    assert by_name["never-yields"].lowest_target_utility == 1.0
-    assert by_name["always-yields"].lowest_target_utility == 0.0
+    assert by_name["never-yields"].concession == pytest.approx(0.0, abs=1e-9)
+    assert by_name["never-yields"].resolved_in_time == 0.0
+    assert by_name["always-yields"].concession > by_name["stubbornness"].concession
     for score in scores:
-        assert score.effort > score.mean_force > 0.0
-        assert score.agreed <= score.runs == 6
+        assert score.effort > 5.0 * score.effort_a_metre > 0.0
+        assert score.runs == 6
         assert score.reached_goal == 0  # 9 s are too short
 
 
@@ -37,8 +38,9 @@ def test_humans_that_need_parameters_are_left_out_unless_the_scenario_gives_them
     names = [score.name for score in scores]
     assert names[0] == "escalating"
     assert set(HUMANS) - set(names) == {"recorded"}
-    forces = {score.name: score.mean_force for score in scores}
-    assert forces["steady"] > 0.1
+    efforts = {score.name: score.effort for score in scores}
+    assert efforts["open-loop"] == 0.0
+    assert efforts["steady"] > 0.4
 
 
 def test_people_walk_in_three_worlds_each_with_a_seed_of_its_own(healthy):

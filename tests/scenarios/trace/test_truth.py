@@ -57,8 +57,8 @@ def test_of_a_prescribed_force_only_insistence_is_known(human, stand_in_recordin
     np.testing.assert_array_equal(pairs(trace, "true_insistence"), np.abs(intent(trace)) / 7.5)
     assert trace["true_insistence_omega"].max() > 0.2
     assert result.summary["person"] == {"gain": None, "force_max": [7.5, 7.5], "delay": 0.0}
-    for name in ("time to agreement", "stubbornness RMSE", "smoothed stubbornness lag"):
-        assert result.summary["metrics"][name]["value"] is None
+    for name in ("time apart", "stubbornness RMSE", "smoothed stubbornness lag"):
+        assert result.summary["metrics"][f"{name}, omega"]["value"] is None
 
 
 def test_a_formula_about_a_wish_that_nobody_knows_fails_and_says_why():

@@ -1,0 +1,1 @@
+"""What a run amounts to, in numbers: cost, negotiation, smoothness, and what was believed."""
