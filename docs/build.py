@@ -92,6 +92,7 @@ def main() -> None:
         (images / "paper.png").write_bytes(Path(folder, "panels.png").read_bytes())
     output("humans", "table", "--write", str(DOCS / "humans.md"))
     output("mutants", "metrics", "--write", str(DOCS / "metrics.md"))
+    output("mutants", "expectations", "--write", str(DOCS / "expectations.md"))
     quote(DOCS / "model.md", "paper", fenced(output("paper")))
     for file, name in (("scenarios.md", "puddle"), ("world.md", "doorway")):
         quote(DOCS / file, name, fenced(shipped(name), "yaml"))

@@ -195,10 +195,10 @@ def table(
         write_table,
     )
 
-    loaded = load_changed(scenario, changes)
     if write is not None:
         with option("--write"):
             marked_document(write, MARK)  # before the minutes that the runs take
+    loaded = load_changed(scenario, changes)
     with progress_bar("comparing") as progress:
         cells = compare_humans(loaded, seeds, progress=progress)
     if write is not None:

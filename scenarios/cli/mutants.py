@@ -1,4 +1,4 @@
-"""The commands about parts that are bad on purpose: whether what measures a run can tell."""
+"""The commands about parts that are bad on purpose: whether measures and expectations tell."""
 
 from __future__ import annotations
 
@@ -26,7 +26,15 @@ def register(app: typer.Typer) -> None:
             "Exit codes: 1 if a metric says something else than was stated of it."
         )
     )(changing(metrics))
-    mutants.callback()(lambda: None)
+    mutants.command(
+        epilog=(
+            "\b\nExamples:\n"
+            "  cowalk mutants expectations\n"
+            "  cowalk mutants expectations puddle my.scenario.yaml --json\n"
+            "  cowalk mutants expectations --write docs/expectations.md\n\n\b\n"
+            "Exit codes: 1 if an expectation fails as it is or never, or a parked robot passes."
+        )
+    )(changing(expectations))
     app.add_typer(mutants, name="mutants")
 
 
@@ -77,3 +85,44 @@ def metrics(
         emit_table("stated of each metric", ("metric", *HEADER[3:]), rows)
         emit_table(f"bad automations in {loaded.name}", MEASURED, measured(verdicts))
     return FAILED if any(verdict.wrong for verdict in verdicts) else PASSED
+
+
+def expectations(
+    changes: Changes,
+    scenarios: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="[SCENARIO]...", help="Names in the library, or YAML files; all of the library."
+        ),
+    ] = None,
+    write: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Also put the tables between their marks in a document."),
+    ] = None,
+    as_json: Json = False,
+) -> int:
+    """Tell which expectations fail with which bad automation or wrong human."""
+    from ..export.marked import marked_document
+    from ..files.shipped import scenario_library
+    from ..mutants.trial_table import HEADER, MARK, rows, write_table
+    from ..mutants.trials import examine
+
+    loaded = [load_changed(name, changes) for name in scenarios or scenario_library()]
+    if write is not None:
+        with option("--write"):
+            marked_document(write, MARK)
+    with progress_bar("running") as progress:
+        examined = examine(loaded, progress)
+    if write is not None:
+        write_table(write, examined)
+    if as_json:
+        emit_json(
+            {"scenarios": [dataclasses.asdict(each) | {"faults": each.faults} for each in examined]}
+        )
+    else:
+        for each in examined:
+            emit_table(each.scenario, HEADER, rows(each))
+        for each in examined:
+            for fault in each.faults:
+                print(f"{each.scenario}: {fault}")
+    return FAILED if any(each.faults for each in examined) else PASSED

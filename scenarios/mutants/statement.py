@@ -46,7 +46,8 @@ STATEMENTS: dict[str, Statement] = {
     "squared true effort, forward": Statement("parked"),
     "squared true effort, sideways": Statement("parked"),
     "intended effort a metre": Statement("parked"),
-    "shaking, forward": Statement("always yields"),
+    # Stated was "always yields". By little, and it depends on the people: nothing is stated.
+    "shaking, forward": Statement(None),
     "shaking, sideways": Statement("jitters", ("parked", "never yields", "lies")),
     "time apart, v": Statement("parked"),
     "time apart, omega": Statement("parked"),

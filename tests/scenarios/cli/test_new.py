@@ -62,7 +62,7 @@ def test_a_scenario_holds_and_is_a_test(cowalk, pytester):
     code, out, error = cowalk(*compare, "-n", "2", "--set", "duration=4")
     assert code == 0
     assert all(line.startswith("cowalk: walking: ") for line in error.splitlines())
-    pytester.runpytest_subprocess().assert_outcomes(passed=3)
+    pytester.runpytest_subprocess().assert_outcomes(passed=5)
 
 
 def test_a_file_that_is_there_stays(cowalk, here):

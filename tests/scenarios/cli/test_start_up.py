@@ -13,6 +13,7 @@ SLOW = {
 PLAIN = ("run", "puddle", "--no-figure", "--set", "expect={}", "--set", "duration=3")
 NO_LOW_PASS = ("--set", "sensor.low_pass=0")
 LOW_PASS = ("--set", "sensor.low_pass=20")
+NO_LOW_PASS = ("--set", "sensor.low_pass=0")
 
 
 def slow_imports(folder, *arguments):

@@ -192,7 +192,7 @@ def test_a_preset_named_again_keeps_what_is_beside_it(folder):
     [
         ("human={parameters: {gain: 9}}", {"initial": [0.4, 0.4], "gain": 9}),
         ("human.parameters={gain: 9}", {"initial": [0.4, 0.4], "gain": 9}),
-        ("human={name: escalating}", {"initial": [0.4, 0.4], "gain": 3.0}),
+        ("human={name: escalating}", {"initial": [0.4, 0.4], "gain": 2.0}),
         ("human={name: conceding, parameters: {gain: 9}}", {"gain": 9}),
         ("human.parameters:={gain: 9}", {"gain": 9}),
         ("human.parameters={}", {}),
@@ -212,7 +212,7 @@ def test_lists_and_what_the_user_names_are_replaced():
     puddles = load("puddle", ["world.obstacles=[{x: 3, y: 0, radius: 0.2}]"]).world.obstacles
     assert [(puddle.x, puddle.seen_by) for puddle in puddles] == [(3.0, puddles[0].seen_by)]
     (moved,) = load("puddle", ["world.obstacles.0={x: 3}"]).world.obstacles
-    assert (moved.x, moved.y, moved.radius) == (3.0, -0.75, 0.35)
+    assert (moved.x, moved.y, moved.radius) == (3.0, -1.05, 0.35)
     negotiation = load("puddle", ["automation.negotiation={horizon: 2}"]).automation.negotiation
     assert (negotiation.horizon, negotiation.turn_weight) == (2.0, 0.2)
 

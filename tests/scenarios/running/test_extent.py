@@ -19,7 +19,6 @@ WIDE = """\
 </joint></robot>
 """
 
-
 GLIDING = "plant.parameters.gait.enabled=false"
 """A gait's sway has a phase of its own, which no mirror turns."""
 
@@ -55,7 +54,7 @@ def test_a_world_in_the_mirror_is_walked_in_the_mirror():
     other = run(
         load(
             "puddle",
-            [*still, "plant.parameters.body.hand=right", "world.obstacles.0.y=0.75"],
+            [*still, "plant.parameters.body.hand=right", "world.obstacles.0.y=1.05"],
         )
     ).trace
     assert len(walk) == len(other)

@@ -17,6 +17,8 @@ from cowalk.scenarios.trace.trace import Trace
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.plant.registry import PLANTS
 
+STILL = "plant.parameters.gait.enabled=false"
+
 
 def trace_of(source, *overrides):
     result = run(load(source, overrides))
@@ -99,7 +101,9 @@ def test_an_automation_that_never_yields_changes_the_humans_force():
     )
     assert stubborn.trace["clearance"].min() < 0.0
     assert not stubborn.passed
-    mean = [np.abs(each.trace["fy_intent"]).mean() for each in (puddle, stubborn)]
+    # On the way to the puddle: whoever was led through it is there at once.
+    ahead = [each.trace["fy_intent"][each.trace["x"] < 9.0] for each in (puddle, stubborn)]
+    mean = [np.abs(force).mean() for force in ahead]
     assert mean[1] > 1.15 * mean[0]
 
 
@@ -139,8 +143,7 @@ def test_the_seed_matters_and_the_noise_is_the_sensors():
     """Without a sensor's faults and a gait, whose phase is drawn, nothing else is random."""
     quiet = [trace_of("puddle", f"seed={seed}", "sensor=none", GLIDING) for seed in (1, 2)]
     assert quiet[0].values.tobytes() == quiet[1].values.tobytes()
-    one, two = trace_of("puddle", "seed=1"), trace_of("puddle", "seed=2")
-    same = trace_of("puddle", "seed=2")
+    one, two, same = (trace_of("puddle", f"seed={seed}", STILL) for seed in (1, 2, 2))
     assert one.values.tobytes() != two.values.tobytes()
     assert two.values.tobytes() == same.values.tobytes()
 

@@ -21,7 +21,7 @@ def test_the_scenarios_own_keeps_its_parameters(given, seat_of):
     env = seat_of("puddle", partner=given)
     env.reset(seed=0)
     assert isinstance(env.partner, EscalatingHuman)
-    assert (env.partner.initial, env.partner.gain) == ((0.4, 0.4), 3.0)
+    assert (env.partner.initial, env.partner.gain) == ((0.4, 0.4), 2.0)
 
 
 def test_another_one_has_its_own_defaults_and_the_scenarios_intention(seat_of):

@@ -49,7 +49,7 @@ def test_people_walk_in_three_worlds_each_with_a_seed_of_its_own(healthy):
     assert len({place.scenario.world.obstacles[0].x for place in walked}) == 12
     assert [place.name for place in walked[:4]] == ["person 1"] * 3 + ["person 2"]
     assert walked[0].person == walked[2].person != walked[3].person
-    shifts = np.array([place.scenario.world.obstacles[0].y for place in walked]) + 0.75
+    shifts = np.array([place.scenario.world.obstacles[0].y for place in walked]) + 1.05
     assert (np.abs(shifts) <= 0.3).all()
     with pytest.raises(InputError, match="people = 1"):
         places(load("puddle"), healthy, 1)
