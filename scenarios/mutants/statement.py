@@ -67,7 +67,8 @@ STATEMENTS: dict[str, Statement] = {
     "resolved in time, omega": Statement("never yields", ("always yields", "lies")),
     "unresolved, v": Statement("parked"),
     "unresolved, omega": Statement("parked"),
-    "log dimensionless jerk, v": Statement("always yields", ("parked", "never yields", "lies")),
+    # Stated was "always yields". In gait's ripple they differ by little, and by the people.
+    "log dimensionless jerk, v": Statement(None, ("parked", "never yields", "lies")),
     "log dimensionless jerk, omega": Statement("jitters", ("parked", "never yields", "lies")),
     "stubbornness RMSE, v": Statement("lies", ()),
     "stubbornness RMSE, omega": Statement("lies", ()),
