@@ -39,8 +39,9 @@ def test_humans_that_need_parameters_are_left_out_unless_the_scenario_gives_them
     assert names[0] == "escalating"
     assert set(HUMANS) - set(names) == {"recorded"}
     efforts = {score.name: score.effort for score in scores}
-    assert efforts["open-loop"] == 0.0
-    assert efforts["steady"] > 0.4
+    # Who never pushes costs what the gait costs, and everybody else more.
+    assert min(efforts, key=efforts.__getitem__) == "open-loop"
+    assert efforts["steady"] > efforts["open-loop"] + 0.4
 
 
 def test_people_walk_in_three_worlds_each_with_a_seed_of_its_own(healthy):
