@@ -166,7 +166,9 @@ _LATER = {
     3: tuple(
         name
         for name in UNITS
-        if name.startswith(("true_demand", "true_insistence", "identifiable", "drive_"))
+        if name.startswith(
+            ("true_demand", "true_insistence", "identifiable", "drive_", "footing_held")
+        )
     ),
 }
 """Columns by the form that they came with: files of an earlier one may lack them."""

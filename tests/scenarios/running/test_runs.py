@@ -94,7 +94,7 @@ def test_the_force_is_the_constraints_and_not_the_intent(puddle):
         else:
             assert np.corrcoef(trace["fy"][walking], intent)[0, 1] > 0.95
     gliding, walked = apart
-    assert gliding > 0.04
+    assert gliding > 0.01  # there is no noise that could be it
     assert walked > 5.0 * gliding
 
 
