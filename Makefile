@@ -30,7 +30,9 @@ run: .venv/run  ## Run the closed-loop scenario and draw its picture
 test: .venv/develop  ## Run all tests
 	$(BIN)/python -m pytest -n auto --dist loadfile
 
-fuzz: .venv/develop  ## Attack with many files that strangers might send
+# Each kind of mutation gets its share; a failure is printed with the line that repeats it.
+fuzz: .venv/develop  ## Answer 10,000 mutations of files, commands and formulas, and hostile robots
+	COWALK_FUZZ=10000 $(BIN)/python -m pytest -n auto tests/test_fuzz.py
 	$(BIN)/python -m pytest -m fuzz tests
 
 soak: .venv/develop  ## Run a thousand adversarial scenarios on PyBullet, and look for leaks

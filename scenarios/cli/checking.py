@@ -62,7 +62,7 @@ def check(
             if part:
                 kind, found = judge_own_part(file)
             else:
-                found = list(map(str, faults(find(file), trust=trust)))
+                found = list(map(str, faults(find(file), trust=trust))) or _tried(find(file), trust)
         except InputError as error:
             if part:  # there is nothing to check
                 complain(str(error))
@@ -75,6 +75,17 @@ def check(
         print("\n".join(found) if found else f"{file}: no fault{f' ({kind})' * bool(kind)}")
         code = max(code, one)
     return code
+
+
+def _tried(file: Path, trust: bool) -> list[str]:
+    """Return what keeps a scenario without faults from taking a step, a line each."""
+    from ..files.loading import load, read_document
+    from ..running.trial import trial
+
+    document = read_document(file)
+    with redirect_stdout(sys.stderr):
+        found = trial(load(file, trust=trust))
+    return [f"{file}:{document.line(fault.path)}: {fault.message}" for fault in found]
 
 
 def _not_met(file: Path, trust: bool) -> tuple[list[str], int]:

@@ -8,6 +8,7 @@ from typing import Any, cast
 import numpy as np
 from pydantic import ValidationError
 
+from cowalk.agents.automations.planner.settings import NegotiationSettings
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.registry import Registry
 from cowalk.sim.env.configuration import require_reachable
@@ -146,6 +147,14 @@ def _too_late(scenario: Scenario) -> list[Fault]:
         for path, delay in delays
         if isinstance(delay, int | float) and delay >= scenario.duration
     ]
+    negotiation = scenario.automation.negotiation
+    for key, usual in (("period", NegotiationSettings.period), ("force_window", 0.0)):
+        value = getattr(negotiation, key)
+        if value > max(scenario.duration, usual):  # what nobody has said is no fault
+            path = ("automation", "negotiation", key)
+            found.append(
+                Fault(path, f"{dotted(path)} = {value:g} s: must not be longer than {run}")
+            )
     rate = scenario.sensor.rate
     if 0.0 < rate * scenario.duration <= 1.0:
         what = f"sensor.rate = {rate:g} Hz: must convert more than once in {run}"

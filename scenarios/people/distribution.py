@@ -9,7 +9,11 @@ from pydantic import BaseModel, ConfigDict
 
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.registry import nearest
+from cowalk.sim.basics.validators import Range, require, require_range
 
+PARAMETER: Range = (-1e12, 1e12, "")
+SMALLEST = 1e-12
+"""What a number of a person, or its spread, can be, and far more (inferred)."""
 KEY = "distribution"
 """What tells a distribution from a plain section."""
 
@@ -63,11 +67,18 @@ class Distribution(BaseModel):
                 raise InputError(f"{name} is no parameter of {self.distribution}; it has {known}")
             if isinstance(value, bool) or not isinstance(value, int | float):
                 raise InputError(f"{name} = {value!r}: a number is expected")
+            require_range(name, value, PARAMETER)
+            require(value == 0.0 or abs(value) >= SMALLEST, name, value, "too near to 0")
         for name in shapes:
             if name not in given:
                 raise InputError(f"{self.distribution} needs a value of {name}")
         self._law = family(**given)
         self._whole = isinstance(family, stats.rv_discrete)
+        with np.errstate(all="ignore"):  # far out, where scipy over- and underflows
+            self._settle(given)
+
+    def _settle(self, given: dict[str, Any]) -> None:
+        """Find the ends, and how much lies between them."""
         low, high = (float(end) for end in self._law.support())
         if np.isnan(low):
             raise InputError(f"{self.distribution} cannot have {given}; see scipy.stats")
@@ -88,7 +99,8 @@ class Distribution(BaseModel):
     def at(self, share: float) -> float:
         """Return the value that a share, in [0, 1), of the people does not exceed."""
         below, up_to = self._mass
-        value = float(self._law.ppf(below + share * (up_to - below)))
+        with np.errstate(all="ignore"):
+            value = float(self._law.ppf(below + share * (up_to - below)))
         return self._plain(min(max(value, self._ends[0]), self._ends[1]))
 
     def _plain(self, value: float) -> float:

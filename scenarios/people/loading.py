@@ -109,9 +109,7 @@ def _faults_of_group(group: Group, at: KeyPath, walks: bool) -> list[Fault]:
     laws, problems = read_distributions(section, at)
     if problems:
         return problems
-    for index, item in enumerate(section.get("imperfections") or []):
-        if not isinstance(item, dict):
-            continue
+    for index, item in _imperfections(section):
         place: KeyPath = (*at, "imperfections", index)
         if walks and item.get("name") == GAIT_RIPPLE:
             what = "people have a gait of their own, people.gait, on every plant; leave this out"
@@ -123,11 +121,17 @@ def _faults_of_group(group: Group, at: KeyPath, walks: bool) -> list[Fault]:
     return try_ends(section, laws, at, lambda tried: _faults_of_human(tried, at))
 
 
+def _imperfections(section: dict[str, Any]) -> list[tuple[int, dict[str, Any]]]:
+    """Return number and section of each imperfection; whatever is none is refused later."""
+    listed = section.get("imperfections")
+    items = enumerate(listed if isinstance(listed, list) else [])
+    return [(index, item) for index, item in items if isinstance(item, dict)]
+
+
 def _faults_of_human(section: dict[str, Any], at: KeyPath) -> list[Fault]:
     """Return what keeps one human from being built."""
-    for item in section.get("imperfections") or []:
-        if isinstance(item, dict):
-            item.pop(PROBABILITY, None)
+    for _, item in _imperfections(section):
+        item.pop(PROBABILITY, None)
     component, problems = validate(human_model(), section, at)
     if component is None:
         return problems
