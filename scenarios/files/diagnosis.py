@@ -151,10 +151,8 @@ def _too_late(scenario: Scenario) -> list[Fault]:
     for key, usual in (("period", NegotiationSettings.period), ("force_window", 0.0)):
         value = getattr(negotiation, key)
         if value > max(scenario.duration, usual):  # what nobody has said is no fault
-            path = ("automation", "negotiation", key)
-            found.append(
-                Fault(path, f"{dotted(path)} = {value:g} s: must not be longer than {run}")
-            )
+            at: KeyPath = ("automation", "negotiation", key)
+            found.append(Fault(at, f"{dotted(at)} = {value:g} s: must not be longer than {run}"))
     rate = scenario.sensor.rate
     if 0.0 < rate * scenario.duration <= 1.0:
         what = f"sensor.rate = {rate:g} Hz: must convert more than once in {run}"
