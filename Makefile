@@ -32,7 +32,7 @@ test: .venv/develop  ## Run all tests
 
 # Each kind of mutation gets its share; a failure is printed with the line that repeats it.
 fuzz: .venv/develop  ## Answer 10,000 mutations of files, commands and formulas, and hostile robots
-	COWALK_FUZZ=10000 $(BIN)/python -m pytest -n auto tests/test_fuzz.py
+	COWALK_FUZZ=10000 $(BIN)/python -m pytest -n auto tests/fuzz/test_mutations.py
 	$(BIN)/python -m pytest -m fuzz tests
 
 soak: .venv/develop  ## Run a thousand adversarial scenarios on PyBullet, and look for leaks

@@ -8,7 +8,6 @@ from typing import Any, cast
 import numpy as np
 from pydantic import ValidationError
 
-from cowalk.agents.automations.planner.settings import NegotiationSettings
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.registry import Registry
 from cowalk.sim.env.configuration import require_reachable
@@ -23,6 +22,10 @@ from .overrides import sections
 from .parts import Part, parts, roots
 from .schema import LONGEST_NAME, Component, Scenario, scenario_model, section_model
 from .validation import validate
+
+UNHURRIED = 10.0
+"""Up to which a negotiation, or what it averages, may be longer than the run, s: whoever tries a
+scenario for a second need not change it (inferred)."""
 
 
 def check(document: Document) -> tuple[Scenario | None, list[Fault]]:
@@ -148,9 +151,9 @@ def _too_late(scenario: Scenario) -> list[Fault]:
         if isinstance(delay, int | float) and delay >= scenario.duration
     ]
     negotiation = scenario.automation.negotiation
-    for key, usual in (("period", NegotiationSettings.period), ("force_window", 0.0)):
+    for key in ("period", "force_window"):
         value = getattr(negotiation, key)
-        if value > max(scenario.duration, usual):  # what nobody has said is no fault
+        if value > max(scenario.duration, UNHURRIED):
             at: KeyPath = ("automation", "negotiation", key)
             found.append(Fault(at, f"{dotted(at)} = {value:g} s: must not be longer than {run}"))
     rate = scenario.sensor.rate

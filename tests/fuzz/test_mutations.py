@@ -28,7 +28,7 @@ from cowalk.sim.basics.errors import InputError
 
 COUNT = int(os.environ.get("COWALK_FUZZ", "180"))
 FIRST = int(os.environ.get("COWALK_FUZZ_FROM", "0"))
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 SCENARIOS = sorted((ROOT / "scenarios" / "library").glob("*.scenario.yaml"))
 POPULATIONS = sorted(population_library().values())
 LONGEST, LARGEST = 2.0, 500_000
@@ -319,7 +319,7 @@ def test_every_mutation_is_answered(kind, tmp_path, monkeypatch):
         if grown > LARGEST:
             why, before = why or f"took {grown // 1024} MB", before + grown
         if why:
-            again = f"COWALK_FUZZ=1 COWALK_FUZZ_FROM={seed} pytest tests/test_fuzz.py"
+            again = f"COWALK_FUZZ=1 COWALK_FUZZ_FROM={seed} pytest tests/fuzz/test_mutations.py"
             again += f" -k {kind.__name__}"
             wrong.append(f"{again}\n    {why[:1500]}")
     assert not wrong, "\n".join([f"{len(wrong)} of them:", *wrong[:40]])
