@@ -210,7 +210,11 @@ def table(
                 "plant": loaded.plant.name,
                 "seeds": seeds,
                 "note": NOTE,
-                "cells": [dataclasses.asdict(cell) for cell in cells],
+                "cells": [
+                    dataclasses.asdict(cell)
+                    | {"metrics": {key: each._asdict() for key, each in cell.metrics.items()}}
+                    for cell in cells
+                ],
             }
         )
     else:

@@ -37,8 +37,8 @@ class AgentScore:
         was none.
     resolved_in_time : float
         Share of disagreements in omega that the base ended in time; NaN where there was none.
-    reached_goal, runs : int
-        Number of runs that ended at the goal, and of all.
+    reached_goal, passes, runs : int
+        Number of runs that ended at the goal, that met the expectations, and of all.
     """
 
     name: str
@@ -49,6 +49,7 @@ class AgentScore:
     concession: float
     resolved_in_time: float
     reached_goal: int
+    passes: int
     runs: int
 
 
@@ -77,6 +78,7 @@ def _score(name: str, numbers: dict[str, Array]) -> AgentScore:
         concession=_known_mean(numbers["executed concession, omega"]),
         resolved_in_time=_known_mean(numbers["resolved in time, omega"]),
         reached_goal=int(numbers["goal"].sum()),
+        passes=int(numbers["passed"].sum()),
         runs=len(a_metre),
     )
 

@@ -6,12 +6,13 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from joblib import Parallel, delayed
-from scipy.stats import bootstrap
 
 from cowalk.agents.registry import HUMANS
+from cowalk.estimation.scores.people import Interval, People, bootstrap
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.motion import Array
 
@@ -19,7 +20,7 @@ from ..export.marked import markdown_table, write_marked
 from ..files.schema import Component, Scenario, with_named
 from ..running.runner import Progress, run
 from .places import elsewhere
-from .side_by_side import numbers_of
+from .side_by_side import meets, numbers_of
 
 AUTOMATIONS_COMPARED = ("never-yields", "always-yields", "stubbornness")
 """The two ends of the scale, and the paper's automation."""
@@ -40,28 +41,11 @@ EARLY = ("collision", "grip lost", "lost footing")
 """Ends of a run that cut it short."""
 NOTE = (
     "Concession: over the runs in which the two wanted something else. Runs that ended early are "
-    "shorter, and so is the time over which their effort adds up: compare that by the metre."
+    "shorter, and so is the time over which their effort adds up: compare that by the metre. "
+    "Passes: runs that met the scenario's expectations, though the obstacles were moved."
 )
 """What a reader of the table must know."""
-CONFIDENCE = 0.95
 MARK = "humans-table"
-
-
-@dataclass(frozen=True)
-class Interval:
-    """A mean over seeds and its bootstrap interval; NaN where there is nothing to average.
-
-    Attributes
-    ----------
-    mean, low, high : float
-    runs : int
-        Runs in which the metric applies: those in which the wishes differed, for concession.
-    """
-
-    mean: float
-    low: float
-    high: float
-    runs: int
 
 
 @dataclass(frozen=True)
@@ -72,15 +56,24 @@ class Cell:
     ----------
     human, automation : str
     metrics : dict
-        `Interval` by the name of each of `METRICS`.
+        Mean over seeds with its `Interval`, by the name of each of `METRICS`; NaN where there is
+        nothing to average.
+    known : dict
+        Number of runs in which each of these applies: those in which the wishes differed, for
+        concession.
     ended_early : dict
         Number of runs that were cut short, by what cut them short (`EARLY`).
+    passes, runs : int
+        Number of runs that met the scenario's expectations, and of all.
     """
 
     human: str
     automation: str
     metrics: dict[str, Interval]
+    known: dict[str, int]
     ended_early: dict[str, int]
+    passes: int
+    runs: int
 
 
 def compare_humans(
@@ -130,29 +123,39 @@ def compare_humans(
     outcomes = Parallel(n_jobs=jobs, return_as="generator")(
         delayed(_measure)(scenario, *task) for task in tasks
     )
-    values: dict[tuple[str, str], list[tuple[float, ...]]] = {pair: [] for pair in pairs}
-    ends: dict[tuple[str, str], list[str]] = {pair: [] for pair in pairs}
-    for done, ((human, automation, _), (found, end)) in enumerate(
+    measured: dict[tuple[str, str], list[_Measured]] = {pair: [] for pair in pairs}
+    for done, ((human, automation, _), found) in enumerate(
         zip(tasks, outcomes, strict=True), start=1
     ):
-        values[human, automation].append(found)
-        ends[human, automation].append(end)
+        measured[human, automation].append(found)
         if progress is not None:
             progress(done, len(tasks))
-    return [
-        Cell(
-            *pair,
-            dict(zip(METRICS, map(estimate, np.array(values[pair]).T), strict=True)),
-            {end: ends[pair].count(end) for end in EARLY},
-        )
-        for pair in pairs
-    ]
+    return [_cell(*pair, runs) for pair, runs in measured.items()]
 
 
-def _measure(
-    scenario: Scenario, human: str, automation: str, seed: int
-) -> tuple[tuple[float, ...], str]:
-    """Return the `METRICS` of one run, and how it ended."""
+class _Measured(NamedTuple):
+    """The `METRICS` of one run, how it ended, and whether it met the expectations."""
+
+    values: tuple[float, ...]
+    end: str
+    passed: bool
+
+
+def _cell(human: str, automation: str, runs: Sequence[_Measured]) -> Cell:
+    values = dict(zip(METRICS, np.array([run.values for run in runs]).T, strict=True))
+    ends = [run.end for run in runs]
+    return Cell(
+        human,
+        automation,
+        {name: estimate(found) for name, found in values.items()},
+        {name: int(np.isfinite(found).sum()) for name, found in values.items()},
+        {end: ends.count(end) for end in EARLY},
+        sum(run.passed for run in runs),
+        len(runs),
+    )
+
+
+def _measure(scenario: Scenario, human: str, automation: str, seed: int) -> _Measured:
     scenario = with_named(with_named(scenario, "human", human), "automation", automation)
     body = scenario.human.imperfections or tuple(Component(name=name) for name in BODY)
     result = run(
@@ -168,44 +171,42 @@ def _measure(
     if result.error is not None:
         raise InputError(f"human {human!r}, automation {automation!r}, seed {seed}: {result.error}")
     values = numbers_of(result)
-    return tuple(values[name] for name in METRICS), result.summary["end"]
+    passed = meets(result, scenario.expect)
+    return _Measured(tuple(values[name] for name in METRICS), result.summary["end"], passed)
 
 
 def estimate(values: Array) -> Interval:
-    """Return the mean of what is not NaN, and its interval by the bias-corrected bootstrap.
+    """Return the mean of what is not NaN, and its bootstrap interval; NaN where there is none.
 
     Parameters
     ----------
     values : ndarray, shape (n,)
     """
     known = values[np.isfinite(values)]
-    if not known.size:
-        return Interval(math.nan, math.nan, math.nan, 0)
-    mean = float(known.mean())
     if known.size < 2 or np.ptp(known) < 1e-12:  # nothing to resample
+        mean = float(known.mean()) if known.size else math.nan
         spread = 0.0 if known.size > 1 else math.nan
-        return Interval(mean, mean - spread, mean + spread, int(known.size))
-    interval = bootstrap(
-        (known,), np.mean, confidence_level=CONFIDENCE, n_resamples=2000, rng=0
-    ).confidence_interval
-    return Interval(mean, float(interval.low), float(interval.high), int(known.size))
+        return Interval(mean, mean - spread, mean + spread)
+    runs = People(known[:, np.newaxis], np.full(known.size, "runs"))
+    return bootstrap(runs, lambda means: means[..., 0])
 
 
 def header() -> tuple[str, ...]:
     """Return the column heads of the table."""
     heads = (f"{name}, {unit}" for name, unit in METRICS.items())
-    return ("human", "automation", *heads, "ended early")
+    return ("human", "automation", *heads, "passes", "ended early")
 
 
 def row(cell: Cell) -> tuple[str, ...]:
-    """Return a cell as text: means with their intervals, and how many runs ended early."""
+    """Return a cell as text: means with their intervals, runs that passed, that ended early."""
     texts = []
-    for found in cell.metrics.values():
-        interval = f" [{found.low:.2f}, {found.high:.2f}]" if math.isfinite(found.low) else ""
-        texts.append(f"{found.mean:.2f}{interval}" if found.runs else "-")
+    for value, low, high in cell.metrics.values():
+        interval = f" [{low:.2f}, {high:.2f}]" if math.isfinite(low) else ""
+        texts.append("-" if math.isnan(value) else f"{value:.2f}{interval}")
     cut = [f"{count} by {end}" for end, count in cell.ended_early.items() if count]
     early = ", ".join(cut) or "none"
-    return (cell.human, cell.automation, *texts, early)
+    passes = f"{cell.passes} of {cell.runs}"
+    return (cell.human, cell.automation, *texts, passes, early)
 
 
 def write_table(file: Path, cells: Sequence[Cell], scenario: str, plant: str, seeds: int) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 from joblib import Parallel, delayed
@@ -13,6 +13,7 @@ from cowalk.agents.registry import HUMANS
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.motion import Array
 
+from ..expect.verdict import judge
 from ..files.building import parameter_names
 from ..files.parts import kind_of_part
 from ..files.schema import Scenario, part_of, with_named, with_part
@@ -62,8 +63,9 @@ def measure_each(
     Returns
     -------
     dict of str to dict
-        By part, each number by its name, shape (runs,). The kind's default, or else the
-        scenario's part, comes first; one's own next, then by name.
+        By part, each number by its name, shape (runs,), and ``passed``, 1 for a run that meets the
+        scenario's expectations. The kind's default, or else the scenario's part, comes first;
+        one's own next, then by name.
 
     Raises
     ------
@@ -91,6 +93,18 @@ def numbers_of(result: RunResult) -> dict[str, float]:
     """Return the metrics of a run by name; NaN where one does not apply."""
     values = {name: found["value"] for name, found in result.summary["metrics"].items()}
     return {name: math.nan if value is None else value for name, value in values.items()}
+
+
+def meets(result: RunResult, expect: Mapping[str, str]) -> bool:
+    """Return whether a run meets expectations.
+
+    One about what only another part adds to the trace is not met.
+    """
+    try:
+        verdicts = judge(expect, result.trace.columns(), result.scenario.rates.period)
+    except InputError:
+        return False
+    return all(verdict.passed for verdict in verdicts)
 
 
 def entries_of(scenario: Scenario, kind: str, own: Sequence[str]) -> list[str]:
@@ -133,4 +147,4 @@ def _measured(
     result = run(chosen)
     if result.error is not None:
         raise InputError(f"{kind} {name!r}, {place.name}: {result.error}")
-    return measure(result)
+    return measure(result) | {"passed": float(meets(result, scenario.expect))}

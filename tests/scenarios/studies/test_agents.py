@@ -32,6 +32,19 @@ def test_every_automation_is_scored_the_scenarios_first(healthy):
         assert score.reached_goal == 0  # 9 s are too short
 
 
+def test_those_runs_pass_that_meet_the_expectations_of_the_scenario(healthy):
+    expect = {"they give way": "eventually (abs(target_utility - 1.0) >= 0.05)"}
+    own = expect | {"only one part traces it": "always (mood >= 0.0)"}
+    scenario = load("puddle", QUICK).model_copy(update={"expect": expect})
+    scores = compare_agents(scenario, "automation", [], healthy, 2, jobs=1)
+    passes = {score.name: score.passes for score in scores}
+    assert passes["never-yields"] == 0
+    assert passes["stubbornness"] == 6
+    scenario = scenario.model_copy(update={"expect": own})
+    scores = compare_agents(scenario, "automation", [], healthy, 2, jobs=1)
+    assert all(score.passes == 0 for score in scores)
+
+
 def test_humans_that_need_parameters_are_left_out_unless_the_scenario_gives_them(healthy):
     scenario = load("puddle", (*QUICK, "duration=4", "sensor.noise_density=0.0"))
     scores = compare_agents(scenario, "human", [], healthy, 2, jobs=1)
