@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from joblib import Parallel, delayed
 
 from cowalk.sim.basics.errors import InputError
 from cowalk.sim.basics.motion import Array
@@ -17,7 +16,8 @@ from ..files.schema import Component, Scenario, with_named
 from ..measures.definitions import Definition, definitions
 from ..people.loading import load_population
 from ..people.person import with_person
-from ..running.runner import run
+from ..running.parallel import each_of
+from ..running.runner import Progress, run
 from ..studies.side_by_side import numbers_of
 from .automations import MUTANTS, PAPER
 from .statement import Statement, statements
@@ -58,7 +58,7 @@ class Verdict:
 def mutate(
     scenario: Scenario,
     people: int = 6,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
     jobs: int = -1,
 ) -> dict[str, dict[str, Array]]:
     """Run the paper's and every bad automation with the same people.
@@ -86,15 +86,10 @@ def mutate(
     """
     walks = [scenario, *_with_others(scenario, people), _with_nobody(scenario)]
     tasks = [(name, walk) for name in AUTOMATIONS for walk in walks]
-    outcomes = Parallel(n_jobs=jobs, return_as="generator")(
-        delayed(_measured)(with_named(walk, "automation", AUTOMATIONS[name]))
-        for name, walk in tasks
-    )
+    whole = [(with_named(walk, "automation", AUTOMATIONS[name]),) for name, walk in tasks]
     found: dict[str, list[dict[str, float]]] = {name: [] for name in AUTOMATIONS}
-    for done, ((name, _), values) in enumerate(zip(tasks, outcomes, strict=True), start=1):
+    for (name, _), values in zip(tasks, each_of(_measured, whole, progress, jobs), strict=True):
         found[name].append(values)
-        if progress is not None:
-            progress(done, len(tasks))
     return {
         name: {
             metric: np.array([run[metric] for run in (runs[-1:] if metric in FALSE else runs[:-1])])

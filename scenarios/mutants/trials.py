@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from joblib import Parallel, delayed
 
 from cowalk.agents.registry import AUTOMATIONS as REGISTERED
 from cowalk.sim.basics.errors import InputError
@@ -16,7 +15,8 @@ from cowalk.sim.basics.motion import Array
 from ..files.building import parameter_names
 from ..files.schema import Component, Scenario, with_named, with_part
 from ..result import how_it_ended
-from ..running.runner import run
+from ..running.parallel import each_of
+from ..running.runner import Progress, run
 from .automations import MUTANTS
 from .humans import WRONG_HUMANS
 
@@ -108,7 +108,7 @@ class Examined:
 
 def examine(
     scenarios: Sequence[Scenario],
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
     jobs: int = -1,
 ) -> list[Examined]:
     """Run every scenario as it is, with each bad automation, and with each wrong human.
@@ -131,12 +131,7 @@ def examine(
             what = "this scenario expects nothing; add formulas that must hold"
             raise InputError(f"{scenario.name}: expect: {what}", ("expect",))
     tasks = [(scenario, part) for scenario in scenarios for part in PARTS]
-    runs = Parallel(n_jobs=jobs, return_as="generator")(delayed(_tried)(*task) for task in tasks)
-    found: list[_Run] = []
-    for each in runs:
-        found.append(each)
-        if progress is not None:
-            progress(len(found), len(tasks))
+    found = each_of(_tried, tasks, progress, jobs)
     return [
         _examined(scenario, found[first : first + len(PARTS)])
         for scenario, first in zip(scenarios, range(0, len(found), len(PARTS)), strict=True)

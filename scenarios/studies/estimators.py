@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from joblib import Parallel, delayed
 
 from cowalk.estimation.scores.gap import gap_closed
 from cowalk.estimation.scores.people import (
@@ -21,6 +20,7 @@ from cowalk.sim.basics.motion import Array
 
 from ..files.schema import Scenario
 from ..people.population import Population
+from ..running.parallel import each_of
 from ..running.runner import Progress
 from .beside import CALIBRATED, ORACLE, PRIOR, REFERENCES, STRENGTH, Scores, fits, scored
 from .estimator_scores import DimensionScores, Estimators, EstimatorScore
@@ -119,9 +119,8 @@ def score_dimension(
     if not share > 0.0:
         return DimensionScores(dimension, unit, share, 0, (), ())
     tasks = [(fitted, place) for fitted, places in fits(found, i) for place in places]
-    results = Parallel(n_jobs=jobs)(
-        delayed(scored)(found[place], fitted, upper, names) for fitted, place in tasks
-    )
+    whole = [(found[place], fitted, upper, names) for fitted, place in tasks]
+    results = each_of(scored, whole, jobs=jobs)
     by_walk: list[dict[str, Scores]] = [{}] * len(found)
     for (_, place), result in zip(tasks, results, strict=True):
         by_walk[place] = result

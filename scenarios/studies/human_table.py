@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from joblib import Parallel, delayed
 
 from cowalk.agents.registry import HUMANS
 from cowalk.estimation.scores.people import Interval, People, bootstrap
@@ -18,6 +17,7 @@ from cowalk.sim.basics.motion import Array
 
 from ..export.marked import markdown_table, write_marked
 from ..files.schema import Component, Scenario, with_named
+from ..running.parallel import each_of
 from ..running.runner import Progress, run
 from .places import elsewhere
 from .side_by_side import meets, numbers_of
@@ -120,16 +120,10 @@ def compare_humans(
     names = humans or [n for n in HUMANS if getattr(HUMANS.get(n), "closed_loop", True)]
     pairs = [(human, automation) for human in names for automation in automations]
     tasks = [(*pair, scenario.seed + offset) for pair in pairs for offset in range(seeds)]
-    outcomes = Parallel(n_jobs=jobs, return_as="generator")(
-        delayed(_measure)(scenario, *task) for task in tasks
-    )
+    outcomes = each_of(_measure, [(scenario, *task) for task in tasks], progress, jobs)
     measured: dict[tuple[str, str], list[_Measured]] = {pair: [] for pair in pairs}
-    for done, ((human, automation, _), found) in enumerate(
-        zip(tasks, outcomes, strict=True), start=1
-    ):
+    for (human, automation, _), found in zip(tasks, outcomes, strict=True):
         measured[human, automation].append(found)
-        if progress is not None:
-            progress(done, len(tasks))
     return [_cell(*pair, runs) for pair, runs in measured.items()]
 
 

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from joblib import Parallel, delayed
 
 from cowalk.estimation.scores.people import LEVEL, Interval, People, bootstrap
 from cowalk.sim.basics.errors import InputError
@@ -18,6 +17,7 @@ from ..files.schema import Scenario, with_named
 from ..people.person import Person, with_person
 from ..people.population import Population
 from ..result import how_it_ended
+from ..running.parallel import each_of
 from ..running.runner import Progress, run
 
 REFERENCE = "never-yields"
@@ -148,12 +148,7 @@ def people_who_pass(
         for number, person in enumerate(drawn)
         for chosen in with_each
     ]
-    found = Parallel(n_jobs=jobs, return_as="generator")(delayed(_walk)(*task) for task in tasks)
-    outcomes: list[Outcome] = []
-    for outcome in found:
-        outcomes.append(outcome)
-        if progress is not None:
-            progress(len(outcomes), len(tasks))
+    outcomes = each_of(_walk, tasks, progress, jobs)
     by_automation = [outcomes[index :: len(names)] for index in range(len(names))]
     shares = tuple(
         _share(name, tuple(of_one), scenario)

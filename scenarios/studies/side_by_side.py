@@ -7,7 +7,6 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
-from joblib import Parallel, delayed
 
 from cowalk.agents.registry import HUMANS
 from cowalk.sim.basics.errors import InputError
@@ -20,6 +19,7 @@ from ..files.schema import Scenario, part_of, with_named, with_part
 from ..people.person import with_person
 from ..people.population import Population
 from ..result import RunResult
+from ..running.parallel import each_of
 from ..running.runner import Progress, run
 from .places import Place, places
 
@@ -75,14 +75,10 @@ def measure_each(
     names = entries_of(scenario, kind, own)
     walked = places(scenario, population, people)
     tasks = [(name, place) for name in names for place in walked]
-    outcomes = Parallel(n_jobs=jobs, return_as="generator")(
-        delayed(_measured)(scenario, kind, *task, measure) for task in tasks
-    )
+    whole = [(scenario, kind, *task, measure) for task in tasks]
     found: dict[str, list[dict[str, float]]] = {name: [] for name in names}
-    for done, ((name, _), values) in enumerate(zip(tasks, outcomes, strict=True), start=1):
+    for (name, _), values in zip(tasks, each_of(_measured, whole, progress, jobs), strict=True):
         found[name].append(values)
-        if progress is not None:
-            progress(done, len(tasks))
     return {
         name: {key: np.array([values[key] for values in runs]) for key in runs[0]}
         for name, runs in found.items()

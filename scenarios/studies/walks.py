@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from joblib import Parallel, delayed
 from numpy.typing import NDArray
 
 from cowalk.estimation.front_ends.mean import mean_force
@@ -25,6 +24,7 @@ from ..files.schema import Scenario, with_named
 from ..people.person import with_person
 from ..people.population import Population
 from ..running.build import build_agents, make_env, seeds_of, situation_of
+from ..running.parallel import each_of
 from ..running.runner import Progress
 from ..trace.recorder import Recorder
 from .places import Place, places
@@ -108,21 +108,11 @@ def walks(
     InputError
         If an entry fails, or nobody can walk.
     """
-    tasks = places(scenario, population, people)
-    outcomes = Parallel(n_jobs=jobs, return_as="generator")(
-        delayed(_walk)(place, kind, names) for place in tasks
-    )
-    found: list[Walk] = []
-    reason = ""
-    for done, outcome in enumerate(outcomes, start=1):
-        if isinstance(outcome, Walk):
-            found.append(outcome)
-        else:
-            reason = outcome
-        if progress is not None:
-            progress(done, len(tasks))
+    tasks = [(place, kind, names) for place in places(scenario, population, people)]
+    outcomes = each_of(_walk, tasks, progress, jobs)
+    found = [outcome for outcome in outcomes if isinstance(outcome, Walk)]
     if not found:
-        raise InputError(f"nobody of {population.name} can walk here: {reason}")
+        raise InputError(f"nobody of {population.name} can walk here: {outcomes[-1]}")
     return found, len(tasks) - len(found)
 
 
